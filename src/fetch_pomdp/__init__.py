@@ -1,0 +1,1 @@
+"""FETCH-POMDP: decide online whether to wait, to point at an item and ask, or to pick it."""

@@ -1,0 +1,80 @@
+"""Checks of single values, shared by all that takes input: each returns the value, or raises the error it is given."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from difflib import get_close_matches
+from typing import Any
+
+from fetch_pomdp.errors import InputError
+
+Point3 = tuple[float, float, float]
+FARTHEST = 1e6  # m: beyond it squared distances lose the precision that an angle needs
+
+
+def shown(value: object, limit: int = 60) -> str:
+    """Return `value` as a short single line for a message."""
+    text = re.sub(r"\s+", " ", repr(value))
+    return text if len(text) <= limit else text[: limit - 3] + "..."
+
+
+def number(value: object, field: str, expected: str, error: type[InputError]) -> float:
+    """Return a finite number as a float; bool and text are refused."""
+    try:
+        finite = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:  # an int too large for a float
+        finite = False
+    if not finite:
+        raise error(f"found {shown(value)}, expected {expected}", field=field)
+    return float(value)  # type: ignore[arg-type]
+
+
+def within(value: object, low: float, high: float, field: str, expected: str, error: type[InputError]) -> float:  # noqa: PLR0913
+    """Return a number in [low, high]."""
+    checked = number(value, field, expected, error)
+    if not low <= checked <= high:
+        raise error(f"found {shown(value)}, expected {expected}", field=field)
+    return checked
+
+
+def point(value: object, field: str, error: type[InputError]) -> Point3:
+    """Return a position, three finite numbers in metres, as a tuple."""
+    expected = "[x, y, z], three finite numbers in metres"
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 3:
+        raise error(f"found {shown(value)}, expected {expected}", field=field)
+    x, y, z = (within(part, -FARTHEST, FARTHEST, field, expected, error) for part in value)
+    return x, y, z
+
+
+def text(value: object, field: str, expected: str, error: type[InputError]) -> str:
+    """Return a text that is not empty."""
+    if not isinstance(value, str) or not value.strip():
+        raise error(f"found {shown(value)}, expected {expected}", field=field)
+    return value
+
+
+def mapping(value: object, field: str, error: type[InputError]) -> Mapping[str, Any]:
+    """Return a mapping with text keys: a table in TOML, an object in JSON."""
+    if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
+        raise error(f"found {shown(value)}, expected a table of named fields", field=field)
+    return value
+
+
+def known(found: Iterable[str], names: Sequence[str], kind: str, error: type[InputError]) -> None:
+    """Raise `error` for the first of `found` that is not among `names`, answered with the known ones."""
+    for name in found:
+        if name not in names:
+            close = get_close_matches(name, names, n=1)
+            hint = f", did you mean {close[0]!r}" if close else ""
+            raise error(f"unknown {kind}, expected one of {', '.join(names)}{hint}", field=name)
+
+
+def required(data: Mapping[str, Any], names: Iterable[str], error: type[InputError]) -> None:
+    """Raise `error` for the first of `names` that is missing in `data`."""
+    for name in names:
+        if name not in data:
+            raise error(f"found no such field, expected one among {', '.join(map(repr, data)) or 'none'}", field=name)

@@ -1,0 +1,130 @@
+"""What stands on the table: items with their places and words, and the person's head."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Self
+
+from fetch_pomdp import checks
+from fetch_pomdp.checks import Point3
+from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.model import Model, Rewards
+from fetch_pomdp.core.words import NEGATIVE, POSITIVE, tokenize
+from fetch_pomdp.documents import read_toml
+from fetch_pomdp.errors import InputError, SceneError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Item:
+    """An item of Section III-B. Raises SceneError for a field that cannot be one."""
+
+    id: str
+    position: Point3  # m
+    vocabulary: tuple[str, ...]  # the words that may refer to it, lower case
+
+    def __post_init__(self) -> None:
+        checks.text(self.id, "id", "a name that is not empty", SceneError)
+        object.__setattr__(self, "position", checks.point(self.position, "position", SceneError))
+        words = self.vocabulary
+        if isinstance(words, str) or not isinstance(words, list | tuple) or not words:
+            raise SceneError(f"found {checks.shown(words)}, expected a list of one word or more", field="vocabulary")
+        checked = [_vocabulary_word(word, f"vocabulary[{index}]") for index, word in enumerate(words)]
+        object.__setattr__(self, "vocabulary", tuple(dict.fromkeys(checked)))
+
+
+def _vocabulary_word(value: object, path: str) -> str:
+    word = checks.text(value, path, "a word", SceneError)
+    tokens = tokenize(word)
+    if tokens != (word.strip().lower(),):
+        raise SceneError(f"found {checks.shown(word)}, expected a single word without punctuation", field=path)
+    if tokens[0] in POSITIVE + NEGATIVE:
+        raise SceneError(f"found {word!r}, expected a word that is no answer to a question", field=path)
+    return tokens[0]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """The items of a table, the head of the person before it, and the model measured there.
+
+    Raises SceneError for no items, ids used twice, or an item in the middle of the head.
+    """
+
+    items: tuple[Item, ...]
+    head: Point3  # m, where the person's head is
+    model: Model = field(default_factory=Model)
+    rewards: Rewards = field(default_factory=Rewards)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "items", tuple(self.items))
+        object.__setattr__(self, "head", checks.point(self.head, "head", SceneError))
+        if not self.items:
+            raise SceneError("found no items, expected one or more", field="items")
+        seen: dict[str, int] = {}
+        for index, item in enumerate(self.items):
+            if item.id in seen:
+                found = f"found {item.id!r}, which items[{seen[item.id]}] has, expected an id of its own"
+                raise SceneError(found, field=f"items[{index}].id")
+            if item.position == self.head:
+                found = "found the position of the head, expected one that can be pointed at"
+                raise SceneError(found, field=f"items[{index}].position")
+            seen[item.id] = index
+
+    def index(self, id: str) -> int:
+        """Return the index of the item with this id. Raises SceneError, with the known ids, if there is none."""
+        for index, item in enumerate(self.items):
+            if item.id == id:
+                return index
+        names = [item.id for item in self.items[:20]]
+        more = "" if len(names) == len(self.items) else f" and {len(self.items) - len(names)} more"
+        raise SceneError(f"found {checks.shown(id)}, expected one of {', '.join(names)}{more}", field="item")
+
+    @classmethod
+    def load(cls, name_or_path: str | Path) -> Self:
+        """Return a built-in scene by name (ambiguous, unambiguous) or read one from a TOML file.
+
+        Raises SceneError or ModelError, with file, line and field, for what is not a scene.
+        """
+        if str(name_or_path) in LAYOUTS:
+            return cls.from_mapping(LAYOUTS[str(name_or_path)])
+        path = Path(name_or_path)
+        if not path.suffix and not path.exists():
+            names = ", ".join(LAYOUTS)
+            raise SceneError(f"found no such scene or file, expected one of {names}, or a TOML file", source=str(path))
+        return read_toml(path, SceneError).build(cls.from_mapping)
+
+    @classmethod
+    def from_mapping(cls, data: Mapping[str, Any]) -> Self:
+        """Build a scene from the fields of a scene file: head, items, and optionally model and rewards."""
+        checks.known(data, ("head", "items", "model", "rewards"), "field", SceneError)
+        checks.required(data, ("head", "items"), SceneError)
+        if not isinstance(data["items"], list | tuple):
+            found = checks.shown(data["items"])
+            raise SceneError(f"found {found}, expected [[items]] tables, one an item", field="items")
+        items = tuple(_item(fields, f"items[{index}]") for index, fields in enumerate(data["items"]))
+        try:
+            section = "model"
+            model = Model().with_changes(checks.mapping(data.get("model", {}), "", SceneError))
+            section = "rewards"
+            rewards = Rewards().with_changes(checks.mapping(data.get("rewards", {}), "", SceneError))
+        except InputError as error:
+            raise error.within(section) from None
+        return cls(items=items, head=data["head"], model=model, rewards=rewards)
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return the head and items as plain data, in the form of a scene file."""
+        items = [
+            {"id": item.id, "position": list(item.position), "vocabulary": list(item.vocabulary)} for item in self.items
+        ]
+        return {"head": list(self.head), "items": items}
+
+
+def _item(fields: object, path: str) -> Item:
+    try:
+        data = checks.mapping(fields, "", SceneError)
+        checks.known(data, ("id", "position", "vocabulary"), "field", SceneError)
+        checks.required(data, ("id", "position", "vocabulary"), SceneError)
+        return Item(**data)
+    except InputError as error:
+        raise error.within(path) from None

@@ -1,0 +1,15 @@
+"""Words of a text, and the response words of Section III-C."""
+
+from __future__ import annotations
+
+import re
+
+POSITIVE = ("yes", "yeah", "sure", "yup")
+NEGATIVE = ("no", "nope", "other", "not")
+
+_WORD = re.compile(r"[^\W_]+(?:['’-][^\W_]+)*")
+
+
+def tokenize(text: str) -> tuple[str, ...]:
+    """Return the words of a text in lower case, without punctuation; "it's" and "T-shirt" are one word each."""
+    return tuple(_WORD.findall(text.lower()))

@@ -1,0 +1,149 @@
+"""Text files as plain mappings that remember the line of each field.
+
+It stands below the core, so that `Scene.load` can read a file while no module of the core opens one itself.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from fetch_pomdp.checks import shown
+from fetch_pomdp.errors import InputError
+
+Made = TypeVar("Made")
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A mapping read from `source`; `line_of` gives the line (from 1) of a field's path, or None."""
+
+    source: str
+    data: Mapping[str, Any]
+    line_of: Callable[[str], int | None]
+
+    def build(self, make: Callable[[Mapping[str, Any]], Made]) -> Made:
+        """Return `make(data)`; what it complains about is raised again with file and line."""
+        try:
+            return make(self.data)
+        except InputError as error:
+            raise error.located(self.source, self.line_of(error.field)) from None
+
+
+def read_text(path: str | Path, error: type[InputError]) -> str:
+    """Return a UTF-8 file's text. Raises `error` for a file that is missing, unreadable or not UTF-8."""
+    try:
+        raw = Path(path).read_bytes()
+    except (OSError, ValueError) as cause:
+        raise error(_reason(cause), source=str(path)) from None
+    return _decoded(raw, str(path), 1, error)
+
+
+def read_toml(path: str | Path, error: type[InputError]) -> Document:
+    """Read a TOML file. Raises `error`, with the line, for broken TOML."""
+    text = read_text(path, error)
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as cause:
+        message = str(cause)
+        place = re.search(r"\s*\(at line (\d+), column \d+\)", message)
+        line = int(place[1]) if place else len(text.splitlines())
+        broken = f"broken TOML: {message[: place.start()] if place else message}, expected `field = value` or a [table]"
+        raise error(broken, source=str(path), line=line) from None
+    except RecursionError:
+        raise error("broken TOML: nested too deeply, expected a few levels", source=str(path)) from None
+    lines = _toml_lines(text)
+
+    def line_of(field: str) -> int | None:
+        while field and field not in lines:
+            field = field.rpartition("[" if field.endswith("]") else ".")[0]
+        return lines.get(field, 1)
+
+    return Document(str(path), data, line_of)
+
+
+def _toml_lines(text: str) -> dict[str, int]:
+    """Map each field's path to its line, for tables and arrays of tables written one field a line."""
+    lines: dict[str, int] = {}
+    counts: dict[str, int] = {}
+    table = ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if many := re.match(r"\s*\[\[\s*([\w.-]+)\s*\]\]", line):
+            name = many[1]
+            counts[name] = counts.get(name, -1) + 1
+            table = f"{name}[{counts[name]}]"
+            lines.setdefault(name, number)
+        elif single := re.match(r"\s*\[\s*([\w.-]+)\s*\]", line):
+            table = single[1]
+        elif key := re.match(r"\s*[\"']?([\w.-]+)[\"']?\s*=", line):
+            lines.setdefault(f"{table}.{key[1]}" if table else key[1], number)
+            continue
+        else:
+            continue
+        lines.setdefault(table, number)
+    return lines
+
+
+def read_json_lines(path: str | Path, error: type[InputError]) -> Iterator[Document]:
+    """Yield the JSON objects of a file, one a line. Raises `error` for a file that is missing or unreadable."""
+    try:
+        with Path(path).open("rb") as stream:
+            yield from json_lines(stream, str(path), error)
+    except (OSError, ValueError) as cause:
+        if isinstance(cause, InputError):
+            raise
+        raise error(_reason(cause), source=str(path)) from None
+
+
+def json_lines(stream: Iterable[bytes], source: str, error: type[InputError]) -> Iterator[Document]:
+    """Yield the JSON objects of a stream as they come, one a line; empty lines are skipped.
+
+    Raises `error` for a line that is not UTF-8, not JSON, not an object, or repeats a field.
+    """
+    for number, raw in enumerate(stream, start=1):
+        text = _decoded(raw, source, number, error)
+        if text.strip():
+            yield Document(source, _json_object(text, source, number, error), lambda _, line=number: line)  # type: ignore[misc]
+
+
+def _json_object(text: str, source: str, line: int, error: type[InputError]) -> dict[str, Any]:
+    def no_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        fields = dict(pairs)
+        if len(fields) < len(pairs):
+            names = [name for name, _ in pairs]
+            twice = next(name for name in names if names.count(name) > 1)
+            raise error("found twice, expected once", field=twice, source=source, line=line)
+        return fields
+
+    try:
+        value = json.loads(text, object_pairs_hook=no_repeats)
+    except json.JSONDecodeError as cause:
+        problem = f"broken JSON: {cause.msg} at column {cause.colno}, expected one JSON object a line"
+        raise error(problem, source=source, line=line) from None
+    except RecursionError:
+        raise error("broken JSON: nested too deeply, expected a few levels", source=source, line=line) from None
+    except ValueError as cause:
+        if isinstance(cause, InputError):
+            raise
+        raise error(f"broken JSON: {cause}, expected one JSON object a line", source=source, line=line) from None
+    if not isinstance(value, dict):
+        raise error(f"found {shown(value)}, expected a JSON object", source=source, line=line)
+    return value
+
+
+def _decoded(raw: bytes, source: str, line: int, error: type[InputError]) -> str:
+    try:
+        return raw.decode("utf-8")
+    except UnicodeDecodeError as cause:
+        bad = line + raw[: cause.start].count(b"\n")
+        found = f"found byte 0x{raw[cause.start]:02x}, expected UTF-8 text"
+        raise error(found, source=source, line=bad) from None
+
+
+def _reason(cause: Exception) -> str:
+    return f"cannot be read: {getattr(cause, 'strerror', None) or cause}, expected a readable file"
