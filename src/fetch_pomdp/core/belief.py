@@ -1,0 +1,71 @@
+"""The belief over the desired item, updated by Bayes' rule."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from fetch_pomdp.checks import shown
+from fetch_pomdp.core import observation as observations
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.errors import BeliefError
+
+
+class Belief:
+    """A distribution over the items, kept as logarithms so that no amount of evidence makes it invalid. Immutable.
+
+    Raises BeliefError for a prior that is no distribution (negative, not finite, or a sum that is not 1 within 1e-6).
+    """
+
+    __slots__ = ("_log",)
+
+    def __init__(self, probabilities: npt.ArrayLike) -> None:
+        try:
+            given = np.array(probabilities, dtype=np.float64)
+        except (TypeError, ValueError):
+            given = np.empty(0)
+        if given.ndim != 1 or not len(given) or not np.isfinite(given).all() or (given < 0).any():
+            found = shown(probabilities)
+            raise BeliefError(f"found {found}, expected a list of probabilities, one an item", field="belief")
+        if abs(given.sum() - 1.0) > 1e-6:
+            raise BeliefError(f"found a sum of {given.sum():.6g}, expected 1", field="belief")
+        with np.errstate(divide="ignore"):
+            self._log = np.log(given / given.sum())
+        self._log.flags.writeable = False
+
+    @classmethod
+    def uniform(cls, n_items: int) -> Belief:
+        """Return the belief an interaction starts with."""
+        return cls(np.full(n_items, 1.0 / n_items))
+
+    @property
+    def log_probabilities(self) -> Vector:
+        """Logarithms of the probabilities, (n_items,), read-only."""
+        return self._log
+
+    @property
+    def probabilities(self) -> Vector:
+        """The probabilities in scene order, (n_items,); they sum to 1."""
+        return np.exp(self._log)
+
+    def updated(self, observation: Observation, asked: int | None, problem: Problem) -> Belief:
+        """Return the belief after an observation (Bayes' rule with Eq. 1-7). asked: index of i_r, or None.
+
+        What scales all items alike cancels; so the action before does not matter here, and responses are read by Table I.
+        Raises BeliefError if the observation is impossible for every item that the belief allows.
+        """
+        likelihood = observations.log_likelihood(observation, asked, problem, problem.model.p_l)
+        log = self._log + likelihood
+        largest = log.max()
+        if largest == -np.inf:
+            about = "no question" if asked is None else f"a question about {problem.scene.items[asked].id!r}"
+            found = f"found {shown(observation)} after {about}, expected an observation with a chance above 0"
+            raise BeliefError(found, field="observation")
+        log -= largest
+        log -= np.log(np.exp(log).sum())
+        log.flags.writeable = False
+        belief = Belief.__new__(Belief)
+        belief._log = log
+        return belief

@@ -1,0 +1,60 @@
+"""How functions are compiled, and the random numbers that compiled code draws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+Vector = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+RandomState = npt.NDArray[np.uint64]  # (1,): the state of `uniform`
+
+
+def compiled(function: Function) -> Function:
+    """Compile with Numba on first call; the result is cached on disk where a folder for it can be written."""
+    return _compiled(function, forceinline=False)
+
+
+def inlined(function: Function) -> Function:
+    """Compile like `compiled`, into the caller: a call that hands over a `Tables` costs more than a small function."""
+    return _compiled(function, forceinline=True)
+
+
+def _compiled(function: Function, **options: bool) -> Function:
+    fast = {"nnan", "nsz", "contract"}  # no value here is ever NaN, so that loops over a max can be vectorised
+    options = {"nogil": True, "error_model": "numpy", "fastmath": fast, **options}
+    try:
+        return njit(cache=True, **options)(function)  # type: ignore[no-any-return]
+    except RuntimeError:  # no writable cache folder: each process compiles anew
+        return njit(**options)(function)  # type: ignore[no-any-return]
+
+
+def random_state(seed: int) -> RandomState:
+    """Return a generator's state for compiled code; `seed` below 2**63."""
+    return np.array([seed], dtype=np.uint64)
+
+
+@inlined
+def uniform(state: RandomState) -> float:
+    """Return a number in [0, 1) and advance the state: SplitMix64 (Steele, Lea and Flood 2014).
+
+    Choice: a generator of one word, since a planner starts one for every decision.
+    """
+    state[0] += np.uint64(0x9E3779B97F4A7C15)
+    z = state[0]
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    z = z ^ (z >> np.uint64(31))
+    return float(z >> np.uint64(11)) * 2.0**-53
+
+
+@inlined
+def standard_normal(state: RandomState) -> float:
+    """Return a number from N(0, 1): Box and Muller 1958."""
+    radius = np.sqrt(-2.0 * np.log(1.0 - uniform(state)))
+    return float(radius * np.cos(2.0 * np.pi * uniform(state)))

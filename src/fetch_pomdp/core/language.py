@@ -1,0 +1,126 @@
+"""Speech: Eq. 4-6 and Table I, each likelihood beside its sampler.
+
+Choice: a word that no item has in its vocabulary, and that is no response, carries no information: it is left out before
+Eq. 4, and an utterance of such words alone counts as empty. Read to the letter, Eq. 5 gives such a word a probability
+alpha / (|vocab| + alpha |words|), which would favour items with few words.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.random import Generator
+
+from fetch_pomdp.core.action import Action, Wait
+from fetch_pomdp.core.compiled import Vector, inlined
+from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.words import NEGATIVE, POSITIVE
+
+Words = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """The words of an utterance l, split into those of Eq. 4, those of Eq. 6 and those not understood."""
+
+    base: Words = ()
+    response: Words = ()
+    unknown: Words = ()
+
+
+def split(words: Words, problem: Problem) -> Utterance:
+    """Split the words of an utterance (Section III-C); lower case, as `words.tokenize` gives them."""
+    base, response, unknown = [], [], []
+    for word in words:
+        if word in problem.word_index:
+            base.append(word)
+        elif word in POSITIVE or word in NEGATIVE:
+            response.append(word)
+        else:
+            unknown.append(word)
+    return Utterance(tuple(base), tuple(response), tuple(unknown))
+
+
+def base_log_likelihood(base: Words, problem: Problem) -> Vector:
+    """Log probability of the base words given each item as the desired one, log p(l_b | i_d) (Eq. 4, 5).
+
+    base: words of the scene. Returns (n_items,) in scene order.
+    """
+    tables = problem.tables
+    if not base:
+        return np.full(problem.n_items, math.log1p(-tables.p_l))
+    result = len(base) * np.log(tables.alpha * tables.smoothing) + math.log(tables.p_l)
+    gain = math.log1p(1.0 / tables.alpha)
+    for word in base:
+        index = problem.word_index[word]
+        result[tables.word_items[tables.word_starts[index] : tables.word_starts[index + 1]]] += gain
+    return result
+
+
+def sample_base(desired: int, problem: Problem, rng: Generator) -> Words:
+    """Draw the base words of one step: one word, or none (Section III-D-1)."""
+    word = draw_word(desired, rng.random(), rng.random(), problem.tables)
+    return () if word < 0 else (problem.words[word],)
+
+
+@inlined
+def draw_word(desired: int, spoken: float, which: float, tables: Tables) -> int:
+    """Return the index of the word that two uniform numbers in [0, 1) select by Eq. 4 and 5, or -1 for silence."""
+    if spoken >= tables.p_l:
+        return -1
+    # By Eq. 5 each of the item's own words has mass `smoothing`, and each word of the scene alpha times that on top.
+    mass = tables.smoothing[desired]
+    start, own = tables.item_starts[desired], tables.item_starts[desired + 1] - tables.item_starts[desired]
+    slot = which / mass
+    if slot < own:
+        return int(tables.item_words[start + int(slot)])
+    return min(int((slot - own) / tables.alpha), len(tables.word_starts) - 2)
+
+
+def response_log_likelihood(response: Words, asked: int | None, problem: Problem, rate: float) -> Vector:
+    """Log probability of the response words given each item as the desired one, log p(l_r | i_d, i_r) (Eq. 6).
+
+    Choice: Table I gives the probability of the class of a response word; within it each word is equally likely, so that
+    the probabilities of all words sum to 1.
+    asked: index of i_r, or None. rate: chance of a response, see `answer_rate`. Returns (n_items,).
+    """
+    if not response:
+        return np.full(problem.n_items, _log(1.0 - rate))
+    positive = sum(word in POSITIVE for word in response)
+    negative = len(response) - positive
+    within = positive * math.log(len(POSITIVE)) + negative * math.log(len(NEGATIVE))
+    if asked is None:
+        return np.full(problem.n_items, _log(rate) - within + len(response) * math.log(0.5))
+    true, false = math.log(problem.model.p_truth), _log(1.0 - problem.model.p_truth)
+    result = np.full(problem.n_items, _log(rate) - within + _times(positive, false) + _times(negative, true))
+    result[asked] = _log(rate) - within + _times(positive, true) + _times(negative, false)
+    return result
+
+
+def sample_response(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Words:  # noqa: PLR0913
+    """Draw the response of one step: one word, or none (Table I, Section III-D-1)."""
+    if rng.random() >= rate:
+        return ()
+    p_truth = problem.model.p_truth
+    p_positive = 0.5 if asked is None else p_truth if asked == desired else 1.0 - p_truth
+    words = POSITIVE if rng.random() < p_positive else NEGATIVE
+    return (words[int(rng.random() * len(words))],)
+
+
+def answer_rate(action: Action, problem: Problem) -> float:
+    """Return the chance of a response in the step after `action`.
+
+    Choice: Eq. 6 lets the person answer anew at every step once something was asked; real people answer once. So in a step
+    after a wait, p_l is multiplied by p_answer_again (1 by default: the paper to the letter).
+    """
+    return problem.tables.p_again if isinstance(action, Wait) else problem.tables.p_l
+
+
+def _log(probability: float) -> float:
+    return math.log(probability) if probability > 0 else -math.inf
+
+
+def _times(count: int, log: float) -> float:
+    return count * log if count else 0.0  # 0 * -inf would be no number

@@ -1,0 +1,1 @@
+"""Planners: each turns a belief and the last question into a decision."""

@@ -1,0 +1,81 @@
+"""What a planner is, and what it returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.random import Generator
+
+from fetch_pomdp.checks import shown
+from fetch_pomdp.core.action import Action, Pick, Point, Wait
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.errors import PlannerError
+
+MOST_DEPTH, MOST_WIDTH = 20, 1_000_000
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Decision:
+    """An action and why: the expected return of every action, NaN where the planner does not value it.
+
+    The errors are standard errors of the sampling; 0 where nothing was sampled.
+    """
+
+    action: Action
+    wait: float
+    point: Vector  # (n_items,), asking about each item
+    pick: Vector  # (n_items,), handing each item over
+    wait_error: float = 0.0
+    point_error: Vector | None = None  # (n_items,)
+
+    @property
+    def value(self) -> float:
+        """The expected return of the chosen action."""
+        if isinstance(self.action, Wait):
+            return self.wait
+        return float((self.point if isinstance(self.action, Point) else self.pick)[self.action.item])
+
+
+class Planner(Protocol):
+    """Decides. It keeps no state between calls: the same arguments and generator state give the same decision."""
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+        """Choose an action for a belief and i_r, the index of the last item asked about, or None."""
+        ...
+
+
+def pick_values(belief: Vector, problem: Problem) -> Vector:
+    """Return the expected reward of picking each item, (n_items,)."""
+    rewards = problem.rewards
+    return (rewards.pick_correct - rewards.pick_wrong) * belief + rewards.pick_wrong
+
+
+def best_action(wait: float, point: Vector, pick: Vector) -> Action:
+    """Return the action with the highest value; NaN counts as never.
+
+    Choice: equal values go to the pick, then the wait, then the question, and there to the first item of the scene.
+    """
+    item = int(pick.argmax())
+    best, action = pick[item], Pick(item)
+    if wait > best:
+        best, action = wait, Wait()
+    question = int(point.argmax())
+    if point[question] > best:
+        action = Point(question)
+    return action
+
+
+def whole_number(value: object, least: int, most: int, field: str) -> int:
+    """Return a planner's whole-number parameter. Raises PlannerError for one that is out of range."""
+    if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+        raise PlannerError(f"found {shown(value)}, expected a whole number from {least} to {most}", field=field)
+    return value
+
+
+def unvalued(problem: Problem) -> Vector:
+    """Return a value for each item that says there is none."""
+    return np.full(problem.n_items, np.nan)

@@ -1,0 +1,189 @@
+"""What the compiled searches share: numbers and arrays in, arrays out. Beliefs are probabilities here, (n_items,).
+
+`asked` and `about` are an item's index or NOBODY. A node at level k has the belief `work.beliefs[k]`; a search adds the
+values of its samples up in `work.totals[k]` (a question about item i at i, a wait at the end).
+
+A search walks its tree depth first with a cursor a level, `work.branch`: compiled recursion cannot be cached on disk.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, inlined, standard_normal, uniform
+from fetch_pomdp.core.gesture import ray_likelihood
+from fetch_pomdp.core.language import draw_word
+from fetch_pomdp.core.problem import Tables
+from fetch_pomdp.core.rays import turned
+
+NOBODY = -1
+SILENT, YES, NO = 0, 1, 2
+
+
+class Search(NamedTuple):
+    """How far and how broadly to search."""
+
+    depth: int  # actions, 2 or more
+    width: int  # sampled observations at a node
+    questions: int  # items that may be asked about: all, or 0
+    patient: bool  # leaf `question` instead of `pick`
+
+
+class Work(NamedTuple):
+    """Memory of a search, and its random numbers; a row for each level of the tree."""
+
+    beliefs: Vector  # (depth, n_items)
+    heard: Vector  # (depth, n_items), a node's belief after base words and pointing
+    totals: Vector  # (depth, n_items + 1), sums of values over samples
+    squares: Vector  # (depth, n_items + 1), sums of their squares
+    sums: Vector  # (depth,), value of the sample and action at the cursor, over the answers so far
+    chance: Vector  # (depth,), of the answer at the cursor
+    offset: Vector  # (depth,), of the evenly spread draws of a node
+    asked: Integers  # (depth,)
+    branch: Integers  # (depth,), the cursor
+    state: RandomState
+
+
+@compiled
+def workspace(belief: Vector, asked: int, depth: int, seed: int) -> Work:
+    """Return the memory of a search from a belief and a last question."""
+    count = len(belief)
+    state = np.empty(1, dtype=np.uint64)
+    state[0] = seed
+    table, row = (depth, count + 1), depth
+    work = Work(
+        np.empty((depth, count)), np.empty((depth, count)), np.empty(table), np.empty(table),
+        np.empty(row), np.empty(row), np.empty(row), np.empty(row, np.int64), np.empty(row, np.int64), state,
+    )  # fmt: skip
+    for item in range(count):
+        work.beliefs[0, item] = belief[item]
+    enter(0, asked, work)
+    return work
+
+
+@inlined
+def enter(level: int, asked: int, work: Work) -> None:
+    """Start on a node whose belief is in place."""
+    for action in range(work.totals.shape[1]):
+        work.totals[level, action] = 0.0
+        work.squares[level, action] = 0.0
+    work.sums[level] = 0.0
+    work.asked[level] = asked
+    work.branch[level] = 0
+    work.offset[level] = uniform(work.state)
+
+
+@inlined
+def hear(belief: Vector, desired: int, heard: Vector, state: RandomState, tables: Tables) -> None:
+    """Fill in the belief after base words and a gesture drawn for the desired item (Eq. 4, 5, 7)."""
+    count = len(belief)
+    word = draw_word(desired, uniform(state), uniform(state), tables)
+    total = 0.0
+    if word < 0:
+        for item in range(count):
+            heard[item] = belief[item]
+            total += heard[item]
+    else:
+        for item in range(count):
+            heard[item] = belief[item] * tables.smoothing[item]
+            total += heard[item]
+        for index in range(tables.word_starts[word], tables.word_starts[word + 1]):
+            item = tables.word_items[index]
+            total += heard[item] / tables.alpha
+            heard[item] += heard[item] / tables.alpha
+    if uniform(state) < tables.p_g:
+        total = see(desired, heard, state, tables)
+    elif tables.exact:
+        total = see_nothing(heard, tables)
+    scale = 1.0 / total
+    for item in range(count):
+        heard[item] *= scale
+
+
+@compiled
+def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> float:
+    """Multiply by the likelihood of a ray drawn around the desired item (Eq. 7); return the sum."""
+    angle, roll = abs(standard_normal(state)) * tables.sigma, 2.0 * math.pi * uniform(state)
+    x, y, z = turned(tables.directions[desired], angle, roll)
+    cosines = np.empty(len(heard))
+    for item in range(len(heard)):
+        cosines[item] = tables.directions[item, 0] * x + tables.directions[item, 1] * y + tables.directions[item, 2] * z
+    if cosines.max() < math.cos(tables.threshold):
+        return see_nothing(heard, tables)
+    total = 0.0
+    for item in range(len(heard)):
+        # The arc cosine is off by 1e-8 rad near the axis: nothing for a plan, and faster than `angle_between`.
+        heard[item] *= ray_likelihood(math.acos(max(-1.0, min(1.0, cosines[item]))), tables)
+        total += heard[item]
+    return total
+
+
+@inlined
+def see_nothing(heard: Vector, tables: Tables) -> float:
+    """Multiply by the likelihood of no pointing (Eq. 7); return the sum."""
+    total = 0.0
+    for item in range(len(heard)):
+        heard[item] *= tables.null_chance[item]
+        total += heard[item]
+    return total
+
+
+@inlined
+def answered(heard: Vector, about: int, answer: int, rate: float, belief: Vector, tables: Tables) -> float:
+    """Fill in the belief after an answer to a question about an item (Eq. 6, Table I); return the answer's chance."""
+    if about == NOBODY or answer == SILENT:
+        for item in range(len(heard)):
+            belief[item] = heard[item]
+        return 1.0 if about == NOBODY else 1.0 - rate
+    true, false = tables.p_truth, 1.0 - tables.p_truth
+    own, others = (true, false) if answer == YES else (false, true)
+    chance = own * heard[about] + others * (1.0 - heard[about])
+    if chance > 0.0:
+        for item in range(len(heard)):
+            belief[item] = heard[item] * (others / chance)
+        belief[about] = heard[about] * own / chance
+    return rate * chance
+
+
+@inlined
+def largest(belief: Vector) -> float:
+    """Return the largest belief."""
+    found = belief[0]
+    for item in range(1, len(belief)):
+        found = max(found, belief[item])
+    return found
+
+
+@compiled
+def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
+    """Return the value of a node whose totals are complete: the best of picks, a wait and questions."""
+    best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(work.beliefs[level])
+    best = max(best, tables.wait + work.totals[level, -1] / search.width)
+    for item in range(search.questions):
+        best = max(best, tables.point + work.totals[level, item] / search.width)
+    return best
+
+
+@inlined
+def draw_item(belief: Vector, number: float) -> int:
+    """Return the item that a uniform number in [0, 1) selects from a belief."""
+    last, reached = 0, 0.0
+    for item in range(len(belief)):
+        if belief[item] > 0.0:
+            last = item
+            reached += belief[item]
+            if reached > number:
+                break
+    return last
+
+
+@inlined
+def draw_answer(desired: int, about: int, rate: float, state: RandomState, tables: Tables) -> int:
+    """Return an answer drawn from Eq. 6 and Table I."""
+    if about == NOBODY or uniform(state) >= rate:
+        return SILENT
+    truthful = uniform(state) < tables.p_truth
+    return YES if truthful == (about == desired) else NO

@@ -1,0 +1,59 @@
+"""From what a search or a leaf knows at the root to a decision."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+
+import numpy as np
+from numpy.random import Generator
+
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.planners.base import Decision, best_action, pick_values, unvalued
+from fetch_pomdp.core.planners.kernels import NOBODY, Search
+from fetch_pomdp.core.planners.leaf import leading, leaf_of
+from fetch_pomdp.core.problem import Problem, Tables
+
+Kernel = Callable[[Vector, int, Search, int, Tables], tuple[Vector, Vector]]
+
+_log = logging.getLogger(__name__)
+
+
+def searched(kernel: Kernel, problem: Problem, belief: Belief, asked: int | None, search: Search, rng: Generator) -> Decision:  # noqa: PLR0913
+    """Return the decision of a search of two actions or more; questions that it may not ask are not valued."""
+    if not getattr(kernel, "signatures", True):
+        _log.info("compiling the planner, once after installation: this takes some seconds")
+    probabilities = belief.probabilities
+    seed = int(rng.integers(2**63))
+    totals, squares = kernel(probabilities, NOBODY if asked is None else asked, search, seed, problem.tables)
+    means = totals / search.width
+    variances = np.maximum(squares / search.width - means**2, 0.0) / max(search.width - 1, 1)
+    errors = np.sqrt(variances)
+    pick = pick_values(probabilities, problem)
+    wait = problem.rewards.wait + float(means[-1])
+    if search.questions == 0:
+        point = point_errors = unvalued(problem)
+    else:
+        point, point_errors = problem.rewards.point + means[:-1], errors[:-1]
+    return Decision(best_action(wait, point, pick), wait, point, pick, float(errors[-1]), point_errors)
+
+
+def last_action(problem: Problem, belief: Belief) -> Decision:
+    """Return the decision with one action left: the best pick, or a wait where even that is better (leaf `pick`)."""
+    pick = pick_values(belief.probabilities, problem)
+    wait, point = problem.rewards.wait, np.full(problem.n_items, problem.rewards.point)
+    return Decision(best_action(wait, point, pick), wait, point, pick)
+
+
+def patient_last_action(problem: Problem, belief: Belief, asked: int | None) -> Decision:
+    """Return the decision of leaf `question` itself: ask and wait the answer out, wait out the one asked for, or pick."""
+    tables, probabilities = problem.tables, belief.probabilities
+    leaf, top = leaf_of(True, tables), leading(probabilities)
+    pick = pick_values(probabilities, problem)
+    pairs = probabilities + np.where(np.arange(problem.n_items) == top.first, top.b2, top.b1)
+    settled = leaf.gain * leaf.p_truth * pairs + leaf.wrong
+    later = np.maximum(settled + leaf.patience, pick.max())
+    point = leaf.point + leaf.p_l * settled + (1.0 - leaf.p_l) * later
+    wait = leaf.wait if asked is None else max(leaf.wait, float(settled[asked]) + leaf.patience)
+    return Decision(best_action(wait, point, pick), wait, point, pick)

@@ -1,0 +1,111 @@
+"""A scene and its model as arrays: built once, handed to everything that computes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from fetch_pomdp.core.compiled import Integers, Vector
+from fetch_pomdp.core.model import Model, Rewards
+from fetch_pomdp.core.rays import LARGEST_EXACT, miss_chances, unit_directions
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.errors import ModelError
+
+
+class Tables(NamedTuple):
+    """What compiled code reads of a problem; n items, m words in all their vocabularies together.
+
+    Words of an item: `item_words[item_starts[i] : item_starts[i + 1]]`; items of a word likewise.
+    """
+
+    directions: Vector  # (n, 3), unit vectors from the scene's head to the items
+    smoothing: Vector  # (n,), 1 / (|vocab| + alpha |words|) of Eq. 5
+    null_chance: Vector  # (n,), chance of no pointing (Eq. 7; with the exact likelihood it depends on the item)
+    item_starts: Integers  # (n + 1,)
+    item_words: Integers
+    word_starts: Integers  # (m + 1,)
+    word_items: Integers
+    alpha: float
+    p_l: float
+    p_again: float  # p_l times p_answer_again: chance of a response in a step after a wait
+    p_g: float
+    sigma: float  # rad
+    threshold: float  # rad
+    exact: bool  # whether rays are judged by the density of their sampler
+    p_truth: float
+    pick_correct: float
+    pick_wrong: float
+    point: float
+    wait: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Problem:
+    """A scene ready to compute with. Raises ModelError if the exact gesture likelihood is asked for too many items."""
+
+    scene: Scene
+    words: tuple[str, ...] = field(init=False)  # all words of the scene, sorted: the "words" of Eq. 5
+    word_index: Mapping[str, int] = field(init=False, repr=False)
+    positions: Vector = field(init=False, repr=False)  # (n, 3), m
+    tables: Tables = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        items, model = self.scene.items, self.scene.model
+        if model.gesture_likelihood == "exact" and len(items) > LARGEST_EXACT:
+            found = f"found 'exact' with {len(items)} items, expected at most {LARGEST_EXACT}, or 'eq7'"
+            raise ModelError(found, field="gesture_likelihood")
+        words = tuple(sorted({word for item in items for word in item.vocabulary}))
+        positions = np.array([item.position for item in items], dtype=np.float64)
+        object.__setattr__(self, "words", words)
+        object.__setattr__(self, "word_index", {word: index for index, word in enumerate(words)})
+        object.__setattr__(self, "positions", positions)
+        object.__setattr__(self, "tables", self._tables())
+
+    @property
+    def model(self) -> Model:
+        """The parameters of Section III-C."""
+        return self.scene.model
+
+    @property
+    def rewards(self) -> Rewards:
+        """The table R(s, a) of Section III-B."""
+        return self.scene.rewards
+
+    @property
+    def n_items(self) -> int:
+        """How many items there are, |I|."""
+        return len(self.scene.items)
+
+    def _tables(self) -> Tables:
+        model, rewards, items = self.model, self.rewards, self.scene.items
+        sizes = np.array([len(item.vocabulary) for item in items])
+        item_words = np.array([self.word_index[word] for item in items for word in item.vocabulary], dtype=np.int64)
+        owners = np.repeat(np.arange(len(items)), sizes)
+        directions = unit_directions(np.array(self.scene.head), self.positions)
+        exact = model.gesture_likelihood == "exact"
+        missed = miss_chances(directions, model.sigma, model.gesture_threshold) if exact else np.zeros(len(items))
+        return Tables(
+            directions=directions,
+            smoothing=1.0 / (sizes + model.alpha * len(self.words)),
+            null_chance=1.0 - model.p_g * (1.0 - missed),
+            item_starts=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64),
+            item_words=item_words,
+            word_starts=np.searchsorted(np.sort(item_words), np.arange(len(self.words) + 1)).astype(np.int64),
+            word_items=owners[np.argsort(item_words, kind="stable")].astype(np.int64),
+            alpha=model.alpha,
+            p_l=model.p_l,
+            p_again=model.p_l * model.p_answer_again,
+            p_g=model.p_g,
+            sigma=model.sigma,
+            threshold=min(model.gesture_threshold, math.pi),
+            exact=exact,
+            p_truth=model.p_truth,
+            pick_correct=rewards.pick_correct,
+            pick_wrong=rewards.pick_wrong,
+            point=rewards.point,
+            wait=rewards.wait,
+        )
