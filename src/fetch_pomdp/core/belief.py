@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core import observation as observations
-from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.compiled import Vector, compiled
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import BeliefError
@@ -57,15 +57,26 @@ class Belief:
         Raises BeliefError if the observation is impossible for every item that the belief allows.
         """
         likelihood = observations.log_likelihood(observation, asked, problem, problem.model.p_l)
-        log = self._log + likelihood
-        largest = log.max()
-        if largest == -np.inf:
+        log, possible = _posterior(self._log, likelihood)
+        if not possible:
             about = "no question" if asked is None else f"a question about {problem.scene.items[asked].id!r}"
             found = f"found {shown(observation)} after {about}, expected an observation with a chance above 0"
             raise BeliefError(found, field="observation")
-        log -= largest
-        log -= np.log(np.exp(log).sum())
         log.flags.writeable = False
         belief = Belief.__new__(Belief)
         belief._log = log
         return belief
+
+
+@compiled
+def _posterior(prior: Vector, likelihood: Vector) -> tuple[Vector, bool]:
+    """Return the normalised sum of two log vectors, and whether any of it is possible."""
+    log = prior + likelihood
+    largest = log.max()
+    if largest == -np.inf:
+        return log, False
+    total = 0.0
+    for item in range(len(log)):
+        log[item] -= largest
+        total += np.exp(log[item])
+    return log - np.log(total), True

@@ -51,7 +51,7 @@ def base_log_likelihood(base: Words, problem: Problem) -> Vector:
     tables = problem.tables
     if not base:
         return np.full(problem.n_items, math.log1p(-tables.p_l))
-    result = len(base) * np.log(tables.alpha * tables.smoothing) + math.log(tables.p_l)
+    result = len(base) * problem.log_smoothing + math.log(tables.p_l)
     gain = math.log1p(1.0 / tables.alpha)
     for word in base:
         index = problem.word_index[word]

@@ -51,6 +51,7 @@ class Problem:
     words: tuple[str, ...] = field(init=False)  # all words of the scene, sorted: the "words" of Eq. 5
     word_index: Mapping[str, int] = field(init=False, repr=False)
     positions: Vector = field(init=False, repr=False)  # (n, 3), m
+    log_smoothing: Vector = field(init=False, repr=False)  # (n,), log of alpha / (|vocab| + alpha |words|)
     tables: Tables = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -64,6 +65,7 @@ class Problem:
         object.__setattr__(self, "word_index", {word: index for index, word in enumerate(words)})
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "tables", self._tables())
+        object.__setattr__(self, "log_smoothing", np.log(model.alpha * self.tables.smoothing))
 
     @property
     def model(self) -> Model:

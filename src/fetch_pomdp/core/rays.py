@@ -32,12 +32,11 @@ def angle_between(direction: Vector, x: float, y: float, z: float) -> float:
 def angles_from(head: Vector, wrist: Vector, positions: Vector) -> Vector:
     """Return the angle (rad) of the ray from head through wrist to each position. (3,), (3,), (n, 3) m; returns (n,)."""
     x, y, z = wrist[0] - head[0], wrist[1] - head[1], wrist[2] - head[2]
-    length = math.sqrt(x * x + y * y + z * z)
     result = np.empty(len(positions))
     for item in range(len(positions)):
-        to_item = positions[item] - head
-        to_item /= math.sqrt(to_item[0] ** 2 + to_item[1] ** 2 + to_item[2] ** 2)
-        result[item] = angle_between(to_item, x / length, y / length, z / length)
+        a, b, c = positions[item, 0] - head[0], positions[item, 1] - head[1], positions[item, 2] - head[2]
+        sine = math.sqrt((b * z - c * y) ** 2 + (c * x - a * z) ** 2 + (a * y - b * x) ** 2)
+        result[item] = math.atan2(sine, a * x + b * y + c * z)
     return result
 
 

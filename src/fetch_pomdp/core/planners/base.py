@@ -59,14 +59,11 @@ def best_action(wait: float, point: Vector, pick: Vector) -> Action:
 
     Choice: equal values go to the pick, then the wait, then the question, and there to the first item of the scene.
     """
-    item = int(pick.argmax())
-    best, action = pick[item], Pick(item)
-    if wait > best:
-        best, action = wait, Wait()
-    question = int(point.argmax())
+    item, question = int(pick.argmax()), int(point.argmax())
+    best = max(float(pick[item]), wait)
     if point[question] > best:
-        action = Point(question)
-    return action
+        return Point(question)
+    return Wait() if wait > pick[item] else Pick(item)
 
 
 def whole_number(value: object, least: int, most: int, field: str) -> int:

@@ -15,6 +15,7 @@ from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, who
 from fetch_pomdp.core.planners.kernels import (
     NOBODY,
     SILENT,
+    RootValues,
     Search,
     Work,
     answered,
@@ -22,6 +23,7 @@ from fetch_pomdp.core.planners.kernels import (
     draw_item,
     enter,
     hear,
+    root_values,
     workspace,
 )
 from fetch_pomdp.core.planners.leaf import answered_leaf, leading, leaf_of
@@ -68,11 +70,8 @@ def default_width(n_items: int) -> int:
 
 
 @compiled
-def plan_exact(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> tuple[Vector, Vector]:
-    """Search with sampled words and pointing, shared by all actions, and answers summed exactly.
-
-    Returns the root's totals and squares.
-    """
+def plan_exact(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> RootValues:
+    """Search with sampled words and pointing, shared by all actions, and answers summed exactly."""
     work = workspace(belief, asked, search.depth, seed)
     level, last = 0, search.depth - 2
     while True:
@@ -83,7 +82,7 @@ def plan_exact(belief: Vector, asked: int, search: Search, seed: int, tables: Ta
         if level == last:
             last_two_actions(level, search, work, tables)
         if level == 0:
-            return work.totals[0], work.squares[0]
+            return root_values(search, work, tables)
         level -= 1
         work.sums[level] += work.chance[level] * best_of(level + 1, search, work, tables)
 

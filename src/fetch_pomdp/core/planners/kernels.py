@@ -19,6 +19,9 @@ from fetch_pomdp.core.language import draw_word
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.rays import turned
 
+# Values of a wait, of questions and of picks; standard errors of the first two.
+RootValues = tuple[float, Vector, Vector, float, Vector]
+
 NOBODY = -1
 SILENT, YES, NO = 0, 1, 2
 
@@ -44,6 +47,9 @@ class Work(NamedTuple):
     offset: Vector  # (depth,), of the evenly spread draws of a node
     asked: Integers  # (depth,)
     branch: Integers  # (depth,), the cursor
+    desired: Integers  # (depth,), the item drawn for the sample at the cursor
+    speaks: Vector  # (depth,), random numbers that select its answer
+    means: Vector  # (depth,)
     state: RandomState
 
 
@@ -56,7 +62,8 @@ def workspace(belief: Vector, asked: int, depth: int, seed: int) -> Work:
     table, row = (depth, count + 1), depth
     work = Work(
         np.empty((depth, count)), np.empty((depth, count)), np.empty(table), np.empty(table),
-        np.empty(row), np.empty(row), np.empty(row), np.empty(row, np.int64), np.empty(row, np.int64), state,
+        np.empty(row), np.empty(row), np.empty(row), np.empty(row, np.int64), np.empty(row, np.int64),
+        np.empty(row, np.int64), np.empty(row), np.empty(row), state,
     )  # fmt: skip
     for item in range(count):
         work.beliefs[0, item] = belief[item]
@@ -167,6 +174,22 @@ def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
     return best
 
 
+@compiled
+def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
+    """Return what a search that is complete knows at its root; questions that it may not ask are worth NaN."""
+    belief, count = work.beliefs[0], work.beliefs.shape[1]
+    means, errors = np.empty(count + 1), np.empty(count + 1)
+    for action in range(count + 1):
+        mean = work.totals[0, action] / search.width
+        spread = max(work.squares[0, action] / search.width - mean * mean, 0.0)
+        means[action], errors[action] = mean, math.sqrt(spread / max(search.width - 1, 1))
+    pick, point = np.empty(count), np.empty(count)
+    for item in range(count):
+        pick[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
+        point[item] = tables.point + means[item] if search.questions > 0 else np.nan
+    return tables.wait + means[count], point, pick, errors[count], errors[:count]
+
+
 @inlined
 def draw_item(belief: Vector, number: float) -> int:
     """Return the item that a uniform number in [0, 1) selects from a belief."""
@@ -178,12 +201,3 @@ def draw_item(belief: Vector, number: float) -> int:
             if reached > number:
                 break
     return last
-
-
-@inlined
-def draw_answer(desired: int, about: int, rate: float, state: RandomState, tables: Tables) -> int:
-    """Return an answer drawn from Eq. 6 and Table I."""
-    if about == NOBODY or uniform(state) >= rate:
-        return SILENT
-    truthful = uniform(state) < tables.p_truth
-    return YES if truthful == (about == desired) else NO

@@ -10,33 +10,26 @@ from numpy.random import Generator
 
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
-from fetch_pomdp.core.planners.base import Decision, best_action, pick_values, unvalued
-from fetch_pomdp.core.planners.kernels import NOBODY, Search
+from fetch_pomdp.core.planners.base import Decision, best_action, pick_values
+from fetch_pomdp.core.planners.kernels import NOBODY, RootValues, Search
 from fetch_pomdp.core.planners.leaf import leading, leaf_of
 from fetch_pomdp.core.problem import Problem, Tables
 
-Kernel = Callable[[Vector, int, Search, int, Tables], tuple[Vector, Vector]]
+Kernel = Callable[[Vector, int, Search, int, Tables], RootValues]
 
 _log = logging.getLogger(__name__)
+_compiled: set[Kernel] = set()  # searches that this process has told its user about
 
 
 def searched(kernel: Kernel, problem: Problem, belief: Belief, asked: int | None, search: Search, rng: Generator) -> Decision:  # noqa: PLR0913
-    """Return the decision of a search of two actions or more; questions that it may not ask are not valued."""
-    if not getattr(kernel, "signatures", True):
-        _log.info("compiling the planner, once after installation: this takes some seconds")
-    probabilities = belief.probabilities
-    seed = int(rng.integers(2**63))
-    totals, squares = kernel(probabilities, NOBODY if asked is None else asked, search, seed, problem.tables)
-    means = totals / search.width
-    variances = np.maximum(squares / search.width - means**2, 0.0) / max(search.width - 1, 1)
-    errors = np.sqrt(variances)
-    pick = pick_values(probabilities, problem)
-    wait = problem.rewards.wait + float(means[-1])
-    if search.questions == 0:
-        point = point_errors = unvalued(problem)
-    else:
-        point, point_errors = problem.rewards.point + means[:-1], errors[:-1]
-    return Decision(best_action(wait, point, pick), wait, point, pick, float(errors[-1]), point_errors)
+    """Return the decision of a search of two actions or more; questions that it may not ask are worth NaN."""
+    if kernel not in _compiled:
+        _compiled.add(kernel)
+        _log.info("loading the compiled planner; the first time after installation it is compiled, for some seconds")
+    seed = int(rng.random() * 2.0**53)
+    about = NOBODY if asked is None else asked
+    wait, point, pick, wait_error, point_errors = kernel(belief.probabilities, about, search, seed, problem.tables)
+    return Decision(best_action(wait, point, pick), wait, point, pick, wait_error, point_errors)
 
 
 def last_action(problem: Problem, belief: Belief) -> Decision:
