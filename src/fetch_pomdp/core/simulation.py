@@ -38,19 +38,18 @@ class Summary:
     mean_questions: float
 
 
-def run_episode(problem: Problem, planner: Planner, rng: Generator) -> Episode:
-    """Play one interaction from the uniform belief, for a desired item drawn uniformly.
+def run_episode(problem: Problem, planner: Planner, desired: int, person: Generator, robot: Generator) -> Episode:
+    """Play one interaction from the uniform belief; the person and the planner draw from generators of their own.
 
-    Choice: the paper states no end; ours is 30 steps without a pick, and no reward for one.
+    Choice: the paper states no end; ours is 30 waits and questions without a pick, and no reward for one.
     """
-    state = State(int(rng.integers(problem.n_items)))
-    belief = Belief.uniform(problem.n_items)
+    state, belief = State(desired), Belief.uniform(problem.n_items)
     total, questions = 0.0, 0
     for steps in range(MOST_STEPS + 1):
-        action = planner.decide(problem, belief, state.asked, rng=rng).action
+        action = planner.decide(problem, belief, state.asked, rng=robot).action
         if steps == MOST_STEPS and not isinstance(action, Pick):
             break
-        state, observation, earned = step(problem, state, action, rng)
+        state, observation, earned = step(problem, state, action, person)
         total += earned
         if observation is None:
             return Episode(total, action == Pick(state.desired), steps, questions)
@@ -60,9 +59,16 @@ def run_episode(problem: Problem, planner: Planner, rng: Generator) -> Episode:
 
 
 def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Summary:
-    """Play `episodes` interactions, one after the other with one generator; same seed, same result."""
-    rng = np.random.default_rng(seed)
-    played = [run_episode(problem, planner, rng) for _ in range(episodes)]
+    """Play `episodes` interactions, each item being the desired one equally often; same seed, same result.
+
+    The person of an episode draws from a stream of the seed and the episode's number alone, so that planners are compared
+    on the same people.
+    """
+    robot = np.random.default_rng(seed)
+    played = [
+        run_episode(problem, planner, episode % problem.n_items, np.random.default_rng((seed, episode)), robot)
+        for episode in range(episodes)
+    ]
     returns = np.array([episode.earned for episode in played])
     return Summary(
         episodes=episodes,

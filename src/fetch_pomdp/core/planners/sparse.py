@@ -36,8 +36,8 @@ class SparseSampling:
 
     One base word and one response word a step (Section III-D-1). Choice: depth counts actions, so depth 2 is act, observe,
     act; with one action left a node is worth its best pick or the reward of a wait. Choice: the paper does not say how the
-    observations of a node are drawn; here the actions share their random numbers and the desired items are spread evenly
-    over the belief. Drawn independently for each action, ten observations cost 0.3 (ambiguous) to 0.6 points a fetch.
+    observations of a node are drawn; here the actions share their random numbers, and desired items and answers are spread
+    evenly over their distributions. Drawn independently for each action, ten observations cost 0.3 (ambiguous) to 0.6 points a fetch.
     Raises PlannerError for a depth or width that is no whole number in range.
     """
 
@@ -87,7 +87,9 @@ def next_observation(level: int, search: Search, work: Work, tables: Tables) -> 
     if branch == 0:
         work.desired[level] = draw_item(belief, (sample + work.offset[level]) / search.width)
         hear(belief, work.desired[level], heard, state, tables)
-        work.speaks[level], work.means[level] = uniform(state), uniform(state)
+        if sample == 0:
+            work.speaks[level], work.means[level] = uniform(state), uniform(state)
+        work.speaks[level], work.means[level] = spread(work.speaks[level], work.means[level])
     work.branch[level] += 1
     about, rate = (work.asked[level], tables.p_again) if branch == 0 else (branch - 1, tables.p_l)
     answer = select_answer(work.desired[level], about, rate, work.speaks[level], work.means[level], tables)
@@ -101,10 +103,11 @@ def last_two_sampled(level: int, search: Search, work: Work, tables: Tables) -> 
     """Fill in the totals of a node with two actions left, the last of them by leaf `pick`."""
     belief, heard, following, state = work.beliefs[level], work.heard[level], work.beliefs[level + 1], work.state
     totals, squares, asked, offset = work.totals[level], work.squares[level], work.asked[level], work.offset[level]
+    speaks, means = uniform(state), uniform(state)
     for sample in range(search.width):
         desired = draw_item(belief, (sample + offset) / search.width)
         hear(belief, desired, heard, state, tables)
-        speaks, means = uniform(state), uniform(state)
+        speaks, means = spread(speaks, means)
         for action in range(-1, search.questions):
             about, rate = (asked, tables.p_again) if action < 0 else (action, tables.p_l)
             answer = select_answer(desired, about, rate, speaks, means, tables)
@@ -113,6 +116,12 @@ def last_two_sampled(level: int, search: Search, work: Work, tables: Tables) -> 
             value = max(tables.wait, pick)
             totals[action] += value
             squares[action] += value * value
+
+
+@inlined
+def spread(speaks: float, means: float) -> tuple[float, float]:
+    """Return the next point of a sequence that fills the unit square evenly (Roberts 2018, the R2 sequence)."""
+    return (speaks + 0.7548776662466927) % 1.0, (means + 0.5698402909980532) % 1.0
 
 
 @inlined
