@@ -71,14 +71,14 @@ class Scene:
                 raise SceneError(found, field=f"items[{index}].position")
             seen[item.id] = index
 
-    def index(self, id: str) -> int:
+    def index(self, id: str, field: str = "item") -> int:
         """Return the index of the item with this id. Raises SceneError, with the known ids, if there is none."""
         for index, item in enumerate(self.items):
             if item.id == id:
                 return index
         names = [item.id for item in self.items[:20]]
         more = "" if len(names) == len(self.items) else f" and {len(self.items) - len(names)} more"
-        raise SceneError(f"found {checks.shown(id)}, expected one of {', '.join(names)}{more}", field="item")
+        raise SceneError(f"found {checks.shown(id)}, expected one of {', '.join(names)}{more}", field=field)
 
     @classmethod
     def load(cls, name_or_path: str | Path) -> Self:

@@ -1,0 +1,122 @@
+"""The robot's mind in one interaction: belief, last question and planner."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from fetch_pomdp.checks import Point3, shown
+from fetch_pomdp.core import language
+from fetch_pomdp.core.action import Action
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.events import Event, Observed
+from fetch_pomdp.core.generative import asked_after
+from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language import Utterance
+from fetch_pomdp.core.model import Model, Rewards
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.base import Decision, Planner
+from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Item, Scene
+from fetch_pomdp.core.words import tokenize
+from fetch_pomdp.errors import ActionError, ObservationError
+
+
+class Agent:
+    """Observes, keeps a belief and decides; everything else it leaves to its planner.
+
+    scene: a Scene, the name of a built-in one, or the path of a TOML file. planner: ExactAnswers() unless given. model,
+    rewards: those of the scene unless given, as a whole or as a mapping of changes. The decision after k observations and
+    actions depends on the seed, on k and on what happened, not on how often `decide` was called.
+    """
+
+    def __init__(  # noqa: PLR0913
+        self,
+        scene: Scene | str | Path,
+        planner: Planner | None = None,
+        *,
+        model: Model | Mapping[str, object] | None = None,
+        rewards: Rewards | Mapping[str, object] | None = None,
+        seed: int = 0,
+        prior: npt.ArrayLike | None = None,
+    ) -> None:
+        table = scene if isinstance(scene, Scene) else Scene.load(scene)
+        changed_model = model if isinstance(model, Model) else table.model.with_changes(model or {})
+        changed_rewards = rewards if isinstance(rewards, Rewards) else table.rewards.with_changes(rewards or {})
+        self.problem = Problem(dataclasses.replace(table, model=changed_model, rewards=changed_rewards))
+        self.planner: Planner = planner if planner is not None else ExactAnswers()
+        self.seed = seed
+        self.asked: int | None = None  # i_r, as an index into the scene's items
+        self._belief = Belief.uniform(self.problem.n_items) if prior is None else Belief(prior)
+        if len(self._belief.log_probabilities) != self.problem.n_items:
+            found = len(self._belief.log_probabilities)
+            raise ObservationError(f"found {found} probabilities, expected {self.problem.n_items}", field="prior")
+        self._steps = 0
+
+    @property
+    def belief(self) -> Vector:
+        """The probability that each item is the desired one, (n_items,), in the order of `scene.items`."""
+        return self._belief.probabilities
+
+    @property
+    def scene(self) -> Scene:
+        """The table, with the model and rewards in force."""
+        return self.problem.scene
+
+    def observe(
+        self, utterance: str | None = None, *, head: Point3 | None = None, wrist: Point3 | None = None
+    ) -> Utterance:
+        """Take in what was said and seen in a step; return how the words were understood.
+
+        head, wrist: metres, both or neither. Raises ObservationError for a ray without length, or one of the two alone.
+        """
+        if utterance is not None and not isinstance(utterance, str):
+            raise ObservationError(f"found {shown(utterance)}, expected text or None", field="utterance")
+        if (head is None) != (wrist is None):
+            missing = "head" if head is None else "wrist"
+            raise ObservationError("found none, expected head and wrist, or neither", field=missing)
+        ray = None if head is None or wrist is None else Ray(head, wrist)
+        return self.update(Observation(tokenize(utterance or ""), ray))
+
+    def update(self, observation: Observation) -> Utterance:
+        """Take in an observation; return how its words were understood."""
+        self._belief = self._belief.updated(observation, self.asked, self.problem)
+        self._steps += 1
+        return language.split(observation.words, self.problem)
+
+    def decide(self) -> Decision:
+        """Return what the planner would do now, and the value of every action; nothing changes."""
+        rng = np.random.default_rng((self.seed, self._steps))
+        return self.planner.decide(self.problem, self._belief, self.asked, rng=rng)
+
+    def act(self) -> Action:
+        """Decide, and go on as if the robot had done it."""
+        action = self.decide().action
+        self.did(action)
+        return action
+
+    def did(self, action: Action) -> None:
+        """Go on from an action that the robot did: a question asked is i_r from now on."""
+        item = getattr(action, "item", 0)
+        if not 0 <= item < self.problem.n_items:
+            raise ActionError(f"found item {item}, expected an index below {self.problem.n_items}", field="item")
+        self.asked = asked_after(action, self.asked)
+        self._steps += 1
+
+    def take(self, event: Event) -> None:
+        """Go on from an event: an observation, or an action, which counts if it was done. Live and replayed alike."""
+        if isinstance(event, Observed):
+            self.update(event.observation)
+        elif event.done:
+            self.did(event.action)
+
+    def item(self, action: Action) -> Item | None:
+        """Return the item that an action is about; a wait is about none."""
+        index = getattr(action, "item", None)
+        return None if index is None else self.scene.items[index]

@@ -1,0 +1,38 @@
+"""What happens in an interaction, as data: shown by a screen, kept in a log, read back for a replay."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from fetch_pomdp.core.action import Action
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.base import Decision
+from fetch_pomdp.core.ports import Outcome, Word
+
+
+@dataclass(frozen=True, slots=True)
+class Observed:
+    """The robot took in an observation of a step that ended at `time` (s); words: as they were heard."""
+
+    observation: Observation
+    words: tuple[Word, ...] = ()
+    time: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Acted:
+    """The robot's action ended at `time` (s); decision: why it was chosen, where that is known."""
+
+    action: Action
+    outcome: Outcome = Outcome.DONE
+    decision: Decision | None = None
+    time: float | None = None
+
+    @property
+    def done(self) -> bool:
+        """Whether the action was carried out."""
+        return self.outcome is Outcome.DONE
+
+
+Event: TypeAlias = Observed | Acted

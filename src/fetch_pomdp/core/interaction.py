@@ -1,0 +1,128 @@
+"""One interaction on real input: sensors to Agent to robot, until an item is handed over.
+
+Time is that of the sensors' streams, in seconds. A step begins with an action and ends with listening:
+
+- A wait listens for `Timing.wait`.
+- A question takes `Timing.question`, of which the last `Timing.wait` is listening. Choice: words that end before the question
+  has been asked cannot answer it; they belong to the step before, and so are read with the i_r of that step.
+- The words that end inside a step are its utterance; the median of its pointing frames is its gesture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fetch_pomdp.core.action import Action, Pick, Point
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.gesture import Ray, angles
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.simulation import MOST_STEPS
+from fetch_pomdp.core.words import tokenize
+from fetch_pomdp.errors import ModelError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Timing:
+    """How long the robot's steps last. Raises ModelError for a question shorter than the listening at its end."""
+
+    wait: float = 1.0  # s
+    question: float = 2.8  # s, asking and then listening for `wait`
+
+    def __post_init__(self) -> None:
+        if not 0 < self.wait <= self.question < float("inf"):
+            found = f"found wait {self.wait!r}, question {self.question!r}"
+            raise ModelError(f"{found}, expected 0 < wait <= question, in seconds", field="timing")
+
+
+class Senses:
+    """Ears and eyes, either may be missing, read step by step."""
+
+    def __init__(self, problem: Problem, ears: Recognizer | None, eyes: SkeletonSource | None) -> None:
+        self._problem, self._ears, self._eyes = problem, ears, eyes
+
+    def hear(self, time: float) -> Observed:
+        """Return what was said since the last call."""
+        words = tuple(self._ears.hear(time)) if self._ears else ()
+        texts = tuple(text for word in words for text in tokenize(word.text))
+        return Observed(Observation(texts), words, time)
+
+    def perceive(self, time: float) -> Observed:
+        """Return what was said since the last call of either method, and what was seen since the last of this one."""
+        heard = self.hear(time)
+        frames = self._eyes.see(time) if self._eyes else ()
+        return replace(heard, observation=Observation(heard.observation.words, median_ray(frames, self._problem)))
+
+
+def interact(  # noqa: PLR0913
+    agent: Agent,
+    robot: Robot,
+    ears: Recognizer | None,
+    eyes: SkeletonSource | None,
+    *,
+    timing: Timing | None = None,
+    most_steps: int = MOST_STEPS,
+) -> Iterator[Event]:
+    """Run an interaction and yield what happens as it happens; it ends with a pick that was done, or after most_steps.
+
+    A pick that failed or was stopped ends nothing: the robot says so, listens for a wait, and decides anew.
+    """
+    timing = timing or Timing()
+    senses, now = Senses(agent.problem, ears, eyes), 0.0
+    for step in range(most_steps + 1):
+        decision = agent.decide()
+        if step == most_steps and not isinstance(decision.action, Pick):
+            return
+        if isinstance(decision.action, Point):
+            now += timing.question - timing.wait
+        outcome = _carry_out(decision.action, agent, robot)
+        if isinstance(decision.action, Point) and (early := senses.hear(now)).words:
+            agent.take(early)
+            yield early
+        acted = Acted(decision.action, outcome, decision, now)
+        agent.take(acted)
+        yield acted
+        if isinstance(acted.action, Pick):
+            if acted.done:
+                return
+            robot.say("I could not hand it over. Please tell me again.")
+        now += timing.wait
+        observed = senses.perceive(now)
+        agent.take(observed)
+        yield observed
+
+
+def _carry_out(action: Action, agent: Agent, robot: Robot) -> Outcome:
+    item = agent.item(action)
+    if item is None:
+        return Outcome.DONE
+    return robot.pick(item) if isinstance(action, Pick) else robot.point(item)
+
+
+def median_ray(frames: Sequence[Frame], problem: Problem) -> Ray | None:
+    """Return the median of the frames that point at the table, or None if none does.
+
+    In each frame the arm counts that is nearest in angle to an item. Choice: the median is taken of each coordinate, of the
+    heads and of the arms' unit directions.
+    """
+    rays = [ray for frame in frames if (ray := pointing_arm(frame, problem)) is not None]
+    if not rays:
+        return None
+    heads = np.array([ray.head for ray in rays])
+    arms = np.array([ray.wrist for ray in rays]) - heads
+    head = np.median(heads, axis=0)
+    arm = np.median(arms / np.linalg.norm(arms, axis=1, keepdims=True), axis=0)
+    return None if not arm.any() else Ray(tuple(head.tolist()), tuple((head + arm).tolist()))
+
+
+def pointing_arm(frame: Frame, problem: Problem) -> Ray | None:
+    """Return the ray of the arm that points at the table, or None (Section III-C-2)."""
+    rays = [Ray(frame.head, wrist) for wrist in frame.wrists]
+    nearest = [float(angles(ray, problem).min()) for ray in rays]
+    best = int(np.argmin(nearest)) if rays else 0
+    return rays[best] if rays and nearest[best] <= problem.model.gesture_threshold else None

@@ -1,0 +1,134 @@
+"""Events as JSON objects, one a line, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from fetch_pomdp import checks
+from fetch_pomdp.checks import shown
+from fetch_pomdp.core.action import Action, Pick, Point, Wait
+from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.ports import Outcome, Word
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.words import tokenize
+from fetch_pomdp.errors import ActionError, EventError, InputError
+
+ACTIONS = ("wait", "point", "pick")
+OUTCOMES = tuple(outcome.value for outcome in Outcome)
+
+
+def event_from_json(data: Mapping[str, Any], scene: Scene) -> Event:
+    """Build an event from the fields of a line. Raises EventError, ActionError, SceneError or ObservationError."""
+    if "action" in data and "observation" in data:
+        raise EventError("found an observation too, expected a line for each", field="action")
+    if "action" in data:
+        return _acted(data, scene)
+    checks.known(data, ("observation", "t"), "field", EventError)
+    checks.required(data, ("observation",), EventError)
+    time = _time(data.get("t"), "t")
+    try:
+        return _observed(checks.mapping(data["observation"], "", EventError), time)
+    except InputError as error:
+        raise error.within("observation") from None
+
+
+def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
+    checks.known(data, ("action", "item", "outcome", "t"), "field", EventError)
+    name = data["action"]
+    if name not in ACTIONS:
+        raise ActionError(f"found {shown(name)}, expected one of {', '.join(ACTIONS)}", field="action")
+    if name == "wait" and data.get("item") is not None:
+        raise ActionError(f"found {shown(data['item'])}, expected none: a wait is about no item", field="item")
+    outcome = data.get("outcome", "done")
+    if outcome not in OUTCOMES:
+        raise EventError(f"found {shown(outcome)}, expected one of {', '.join(OUTCOMES)}", field="outcome")
+    action: Action = Wait()
+    if name != "wait":
+        checks.required(data, ("item",), EventError)
+        item = item_index(data["item"], scene, "item")
+        action = Point(item) if name == "point" else Pick(item)
+    return Acted(action, Outcome(outcome), time=_time(data.get("t"), "t"))
+
+
+def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
+    checks.known(data, ("utterance", "words", "head", "wrist"), "field", EventError)
+    utterance = data.get("utterance")
+    if utterance is not None and not isinstance(utterance, str):
+        raise EventError(f"found {shown(utterance)}, expected text or null", field="utterance")
+    words = _words(data.get("words"))
+    if utterance is None:
+        utterance = " ".join(word.text for word in words)
+    head, wrist = data.get("head"), data.get("wrist")
+    if (head is None) != (wrist is None):
+        missing = "head" if head is None else "wrist"
+        raise EventError("found none, expected head and wrist, or neither", field=missing)
+    ray = None if head is None else Ray(head, wrist)
+    return Observed(Observation(tokenize(utterance), ray), words, time)
+
+
+def _words(value: object) -> tuple[Word, ...]:
+    if value is None:
+        return ()
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        raise EventError(f"found {shown(value)}, expected a list of words", field="words")
+    return tuple(_word(fields, f"words[{index}]") for index, fields in enumerate(value))
+
+
+def _word(value: object, path: str) -> Word:
+    try:
+        data = checks.mapping(value, "", EventError)
+        checks.known(data, ("text", "start", "end", "posterior"), "field", EventError)
+        checks.required(data, ("text", "start", "end"), EventError)
+        posterior = data.get("posterior", 1.0)
+        return Word(
+            checks.text(data["text"], "text", "a word", EventError),
+            checks.number(data["start"], "start", "a time in seconds", EventError),
+            checks.number(data["end"], "end", "a time in seconds", EventError),
+            checks.within(posterior, 0.0, 1.0, "posterior", "a probability", EventError),
+        )
+    except InputError as error:
+        raise error.within(path) from None
+
+
+def _time(value: object, field: str) -> float | None:
+    return None if value is None else checks.number(value, field, "a time in seconds", EventError)
+
+
+def item_index(value: object, scene: Scene, field: str) -> int:
+    """Return the index of the item with an id. Raises SceneError, naming the field, if there is none."""
+    return scene.index(checks.text(value, field, "the id of an item", EventError), field)
+
+
+def event_to_json(event: Event, scene: Scene) -> dict[str, Any]:
+    """Return the fields of an event's line."""
+    fields = _observed_to_json(event) if isinstance(event, Observed) else _acted_to_json(event, scene)
+    return fields if event.time is None else {**fields, "t": round(event.time, 3)}
+
+
+def _acted_to_json(event: Acted, scene: Scene) -> dict[str, Any]:
+    fields = action_to_json(event.action, scene)
+    return fields if event.done else {**fields, "outcome": event.outcome.value}
+
+
+def action_to_json(action: Action, scene: Scene) -> dict[str, Any]:
+    """Return an action's name and, unless it is a wait, the id of its item."""
+    if isinstance(action, Wait):
+        return {"action": "wait"}
+    name = "point" if isinstance(action, Point) else "pick"
+    return {"action": name, "item": scene.items[action.item].id}
+
+
+def _observed_to_json(event: Observed) -> dict[str, Any]:
+    observation = event.observation
+    fields: dict[str, Any] = {"utterance": " ".join(observation.words) or None}
+    if event.words:
+        fields["words"] = [
+            {"text": word.text, "start": word.start, "end": word.end, "posterior": word.posterior}
+            for word in event.words
+        ]
+    if observation.ray is not None:
+        fields |= {"head": list(observation.ray.head), "wrist": list(observation.ray.wrist)}
+    return {"observation": fields}

@@ -1,0 +1,108 @@
+"""The first line of a recorded interaction: what it is about."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from fetch_pomdp import checks
+from fetch_pomdp.checks import shown
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.files.events import item_index
+from fetch_pomdp.errors import EventError, InputError, SceneError
+
+VERSION = 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Header:
+    """What an interaction is about: the first line of its record."""
+
+    scene: Scene  # with the model and rewards in force
+    scene_name: str | None = None  # of a built-in scene
+    planner: str = DEFAULT
+    parameters: Mapping[str, Any] = field(default_factory=dict)  # of the planner
+    seed: int = 0
+    target: str | None = None  # id of the item that was desired, where that is known
+
+    def agent(self, *, planner: str | None = None, seed: int | None = None, **parameters: Any) -> Agent:
+        """Return an agent at the start of this interaction; what is given replaces what was recorded."""
+        given = {name: value for name, value in parameters.items() if value is not None}
+        changed = planner is not None and planner != self.planner
+        merged = given if changed else {**self.parameters, **given}
+        chosen = planner_named(planner or self.planner, **merged)
+        return Agent(self.scene, chosen, seed=self.seed if seed is None else seed)
+
+
+def header_from_json(data: Mapping[str, Any]) -> Header:
+    """Build a header from the fields of a first line."""
+    checks.known(data, ("scene", "model", "rewards", "version", "planner", "seed", "target"), "field", EventError)
+    checks.required(data, ("scene",), EventError)
+    if type(data.get("version", VERSION)) is not int or data.get("version", VERSION) != VERSION:
+        raise EventError(f"found {shown(data['version'])}, expected {VERSION}", field="version")
+    scene = _with_changes(_scene(data["scene"]), data)
+    planner, parameters = _planner(data.get("planner", DEFAULT))
+    seed = data.get("seed", 0)
+    if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**63:
+        raise EventError(f"found {shown(seed)}, expected a whole number from 0", field="seed")
+    target = data.get("target")
+    if target is not None:
+        item_index(target, scene, "target")
+    name = data["scene"] if isinstance(data["scene"], str) else None
+    return Header(scene=scene, scene_name=name, planner=planner, parameters=parameters, seed=seed, target=target)
+
+
+def _scene(value: object) -> Scene:
+    if isinstance(value, str):
+        if value not in LAYOUTS:
+            expected = f"expected one of {', '.join(LAYOUTS)}, or an object with head and items"
+            raise EventError(f"found {shown(value)}, {expected}", field="scene")
+        return Scene.load(value)
+    try:
+        data = checks.mapping(value, "", EventError)
+        checks.known(data, ("head", "items"), "field", SceneError)
+        return Scene.from_mapping(data)
+    except InputError as error:
+        raise error.within("scene") from None
+
+
+def _with_changes(scene: Scene, data: Mapping[str, Any]) -> Scene:
+    try:
+        section = "model"
+        model = scene.model.with_changes(checks.mapping(data.get("model", {}), "", EventError))
+        section = "rewards"
+        rewards = scene.rewards.with_changes(checks.mapping(data.get("rewards", {}), "", EventError))
+    except InputError as error:
+        raise error.within(section) from None
+    return dataclasses.replace(scene, model=model, rewards=rewards)
+
+
+def _planner(value: object) -> tuple[str, dict[str, Any]]:
+    fields = {"name": value} if isinstance(value, str) else dict(checks.mapping(value, "planner", EventError))
+    name = fields.pop("name", DEFAULT)
+    try:
+        planner_named(checks.text(name, "", "a planner's name", EventError), **fields)
+    except InputError as error:
+        raise error if error.field == "planner" else error.within("planner") from None
+    return name, fields
+
+
+def header_to_json(header: Header) -> dict[str, Any]:
+    """Return the fields of a header's line; whatever is as it is by default is left out."""
+    scene = header.scene
+    plain = Scene(items=scene.items, head=scene.head)
+    fields: dict[str, Any] = {"scene": header.scene_name or scene.to_mapping(), "version": VERSION}
+    for section in ("model", "rewards"):
+        values, defaults = dataclasses.asdict(getattr(scene, section)), dataclasses.asdict(getattr(plain, section))
+        if changes := {name: value for name, value in values.items() if value != defaults[name]}:
+            fields[section] = changes
+    fields["planner"] = {"name": header.planner, **header.parameters} if header.parameters else header.planner
+    fields["seed"] = header.seed
+    if header.target is not None:
+        fields["target"] = header.target
+    return fields

@@ -1,0 +1,89 @@
+"""Recorded interactions on disk: JSON Lines, the first line a header, each further one an event (`docs/events.md`)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self, TextIO
+
+from fetch_pomdp.core.action import Pick
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.documents import Document, read_json_lines
+from fetch_pomdp.errors import EventError
+from fetch_pomdp.files.events import event_from_json, event_to_json
+from fetch_pomdp.files.header import Header, header_from_json, header_to_json
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """An interaction as it was recorded."""
+
+    header: Header
+    events: tuple[Event, ...]
+    documents: tuple[Document, ...]  # the lines of the events
+
+    @property
+    def over(self) -> bool:
+        """Whether an item was handed over."""
+        return any(_ends(event) for event in self.events)
+
+    def replay(self, agent: Agent) -> Iterator[Event]:
+        """Let an agent live through the interaction; yield each event after the agent has taken it in.
+
+        Raises BeliefError or ObservationError, with file and line, for an event that the model holds impossible.
+        """
+        for event, document in zip(self.events, self.documents, strict=True):
+            document.build(lambda _, event=event: agent.take(event))  # type: ignore[misc]
+            yield event
+
+
+class EventLog:
+    """Writes an interaction as it happens: each line is flushed, so that a kill loses at most the one being written."""
+
+    def __init__(self, stream: TextIO, header: Header) -> None:
+        self._stream, self._scene = stream, header.scene
+        self._write(header_to_json(header))
+
+    def write(self, event: Event) -> None:
+        """Add an event."""
+        self._write(event_to_json(event, self._scene))
+
+    def _write(self, fields: Mapping[str, Any]) -> None:
+        self._stream.write(json.dumps(fields, ensure_ascii=False) + "\n")
+        self._stream.flush()
+
+    @classmethod
+    def create(cls, path: str | Path, header: Header) -> Self:
+        """Start a log in a new file. Raises EventError if the file exists or cannot be written."""
+        try:
+            return cls(Path(path).open("x", encoding="utf-8"), header)
+        except FileExistsError:
+            raise EventError("found a file there already, expected a new one", source=str(path)) from None
+        except (OSError, ValueError) as cause:
+            reason = getattr(cause, "strerror", None) or cause
+            raise EventError(f"cannot be written: {reason}, expected a folder for it", source=str(path)) from None
+
+
+def read_recording(path: str | Path) -> Recording:
+    """Read a recorded interaction. Raises InputError, with file, line and field, for what cannot be one."""
+    documents = read_json_lines(path, EventError)
+    first = next(documents, None)
+    if first is None:
+        raise EventError("found an empty file, expected a first line with the scene", source=str(path))
+    header = first.build(header_from_json)
+    events: list[Event] = []
+    lines: list[Document] = []
+    for document in documents:
+        if events and _ends(events[-1]):
+            found = "found an event after a pick that was done, expected the end of the interaction"
+            raise EventError(found, source=document.source, line=document.line_of(""))
+        events.append(document.build(lambda data: event_from_json(data, header.scene)))
+        lines.append(document)
+    return Recording(header, tuple(events), tuple(lines))
+
+
+def _ends(event: Event) -> bool:
+    return isinstance(event, Acted) and event.done and isinstance(event.action, Pick)
