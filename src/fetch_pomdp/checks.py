@@ -31,7 +31,7 @@ def number(value: object, field: str, expected: str, error: type[InputError]) ->
     return float(value)  # type: ignore[arg-type]
 
 
-def within(value: object, low: float, high: float, field: str, expected: str, error: type[InputError]) -> float:  # noqa: PLR0913
+def within(value: object, low: float, high: float, field: str, expected: str, error: type[InputError]) -> float:
     """Return a number in [low, high]."""
     checked = number(value, field, expected, error)
     if not low <= checked <= high:

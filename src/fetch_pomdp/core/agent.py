@@ -31,12 +31,12 @@ from fetch_pomdp.errors import ActionError, ObservationError
 class Agent:
     """Observes, keeps a belief and decides; everything else it leaves to its planner.
 
-    scene: a Scene, the name of a built-in one, or the path of a TOML file. planner: ExactAnswers() unless given. model,
-    rewards: those of the scene unless given, as a whole or as a mapping of changes. The decision after k observations and
-    actions depends on the seed, on k and on what happened, not on how often `decide` was called.
+    scene: a Scene, the name of a built-in one, or the path of a TOML file. planner: ExactAnswers() unless given.
+    model, rewards: those of the scene unless given, as a whole or as a mapping of changes. The decision after k
+    observations and actions depends on the seed, on k and on what happened, not on how often `decide` was called.
     """
 
-    def __init__(  # noqa: PLR0913
+    def __init__(
         self,
         scene: Scene | str | Path,
         planner: Planner | None = None,

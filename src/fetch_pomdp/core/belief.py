@@ -21,6 +21,8 @@ class Belief:
 
     __slots__ = ("_log",)
 
+    _log: Vector
+
     def __init__(self, probabilities: npt.ArrayLike) -> None:
         try:
             given = np.array(probabilities, dtype=np.float64)
@@ -48,13 +50,13 @@ class Belief:
     @property
     def probabilities(self) -> Vector:
         """The probabilities in scene order, (n_items,); they sum to 1."""
-        return np.exp(self._log)
+        return np.asarray(np.exp(self._log))
 
     def updated(self, observation: Observation, asked: int | None, problem: Problem) -> Belief:
         """Return the belief after an observation (Bayes' rule with Eq. 1-7). asked: index of i_r, or None.
 
-        What scales all items alike cancels; so the action before does not matter here, and responses are read by Table I.
-        Raises BeliefError if the observation is impossible for every item that the belief allows.
+        What scales all items alike cancels; so the action before does not matter here, and responses are read by
+        Table I. Raises BeliefError if the observation is impossible for every item that the belief allows.
         """
         likelihood = observations.log_likelihood(observation, asked, problem, problem.model.p_l)
         log, possible = _posterior(self._log, likelihood)

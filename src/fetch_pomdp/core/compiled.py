@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -25,13 +25,19 @@ def inlined(function: Function) -> Function:
     return _compiled(function, forceinline=True)
 
 
-def _compiled(function: Function, **options: bool) -> Function:
-    fast = {"nnan", "nsz", "contract"}  # no value here is ever NaN, so that loops over a max can be vectorised
-    options = {"nogil": True, "error_model": "numpy", "fastmath": fast, **options}
+def _compiled(function: Function, *, forceinline: bool) -> Function:
+    jit: Any = njit
+    # Nothing here computes with NaN, so loops over a max may be vectorised.
+    options = {
+        "nogil": True,
+        "error_model": "numpy",
+        "fastmath": {"nnan", "nsz", "contract"},
+        "forceinline": forceinline,
+    }
     try:
-        return njit(cache=True, **options)(function)  # type: ignore[no-any-return]
-    except RuntimeError:  # no writable cache folder: each process compiles anew
-        return njit(**options)(function)  # type: ignore[no-any-return]
+        return cast("Function", jit(cache=True, **options)(function))
+    except RuntimeError:  # no folder for the cache can be written: each process compiles anew
+        return cast("Function", jit(**options)(function))
 
 
 def random_state(seed: int) -> RandomState:

@@ -37,9 +37,7 @@ def asked_after(action: Action, asked: int | None) -> int | None:
     return action.item if isinstance(action, Point) else asked
 
 
-def step(
-    problem: Problem, state: State, action: Action, rng: Generator
-) -> tuple[State, Observation | None, float]:
+def step(problem: Problem, state: State, action: Action, rng: Generator) -> tuple[State, Observation | None, float]:
     """Return the next state, the observation and the reward of an action; after a pick the observation is None."""
     earned = reward(state, action, problem)
     if isinstance(action, Pick):

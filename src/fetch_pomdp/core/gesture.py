@@ -1,8 +1,8 @@
 """Pointing: Eq. 7, its likelihood beside its sampler.
 
-Choice: the paper draws "an added noise term from the Gaussian" and says no more; our rays lie at an angle |N(0, sigma)| off
-the item, at a uniform roll around it. A ray so drawn has density per solid angle proportional to
-exp(-t^2 / 2 sigma^2) / sin t, which Eq. 7 is not: "eq7" judges rays by the paper's equation, "exact" by that density.
+Choice: the paper draws "an added noise term from the Gaussian" and says no more; our rays lie at an angle |N(0,
+sigma)| off the item, at a uniform roll around it. A ray so drawn has density per solid angle proportional to exp(-t^2
+/ 2 sigma^2) / sin t, which Eq. 7 is not: "eq7" judges rays by the paper's equation, "exact" by that density.
 """
 
 from __future__ import annotations
@@ -25,7 +25,9 @@ SMALLEST_ANGLE = 1e-3  # rad: the exact density is infinite on the axis, so angl
 
 @dataclass(frozen=True, slots=True)
 class Ray:
-    """A pointing arm: from the head through the wrist, both in metres. Raises ObservationError for one without length."""
+    """A pointing arm: from the head through the wrist, both in metres. Raises ObservationError for one without
+    length.
+    """
 
     head: Point3
     wrist: Point3
@@ -66,7 +68,9 @@ def log_likelihood(ray: Ray | None, problem: Problem) -> Vector:
 def _log_density(found: Vector, problem: Problem) -> Vector:
     model = problem.model
     if model.p_g == 0.0:
-        raise ObservationError("found a pointing ray, expected none: in this model p_g is 0, nobody points", field="wrist")
+        raise ObservationError(
+            "found a pointing ray, expected none: in this model p_g is 0, nobody points", field="wrist"
+        )
     normal = math.log(model.p_g) - 0.5 * (found / model.sigma) ** 2 - math.log(model.sigma * math.sqrt(math.tau))
     if model.gesture_likelihood == "eq7":
         return np.asarray(normal)

@@ -3,8 +3,8 @@
 Time is that of the sensors' streams, in seconds. A step begins with an action and ends with listening:
 
 - A wait listens for `Timing.wait`.
-- A question takes `Timing.question`, of which the last `Timing.wait` is listening. Choice: words that end before the question
-  has been asked cannot answer it; they belong to the step before, and so are read with the i_r of that step.
+- A question takes `Timing.question`, of which the last `Timing.wait` is listening. Choice: words that end before the
+  question has been asked cannot answer it; they belong to the step before, and so are read with the i_r of that step.
 - The words that end inside a step are its utterance; the median of its pointing frames is its gesture.
 """
 
@@ -20,7 +20,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray, angles
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
+from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import MOST_STEPS
 from fetch_pomdp.core.words import tokenize
@@ -59,7 +59,7 @@ class Senses:
         return replace(heard, observation=Observation(heard.observation.words, median_ray(frames, self._problem)))
 
 
-def interact(  # noqa: PLR0913
+def interact(
     agent: Agent,
     robot: Robot,
     ears: Recognizer | None,
@@ -107,8 +107,8 @@ def _carry_out(action: Action, agent: Agent, robot: Robot) -> Outcome:
 def median_ray(frames: Sequence[Frame], problem: Problem) -> Ray | None:
     """Return the median of the frames that point at the table, or None if none does.
 
-    In each frame the arm counts that is nearest in angle to an item. Choice: the median is taken of each coordinate, of the
-    heads and of the arms' unit directions.
+    In each frame the arm counts that is nearest in angle to an item. Choice: the median is taken of each coordinate,
+    of the heads and of the arms' unit directions.
     """
     rays = [ray for frame in frames if (ray := pointing_arm(frame, problem)) is not None]
     if not rays:

@@ -1,8 +1,8 @@
 """Speech: Eq. 4-6 and Table I, each likelihood beside its sampler.
 
-Choice: a word that no item has in its vocabulary, and that is no response, carries no information: it is left out before
-Eq. 4, and an utterance of such words alone counts as empty. Read to the letter, Eq. 5 gives such a word a probability
-alpha / (|vocab| + alpha |words|), which would favour items with few words.
+Choice: a word that no item has in its vocabulary, and that is no response, carries no information: it is left out
+before Eq. 4, and an utterance of such words alone counts as empty. Read to the letter, Eq. 5 gives such a word a
+probability alpha / (|vocab| + alpha |words|), which would favour items with few words.
 """
 
 from __future__ import annotations
@@ -82,9 +82,9 @@ def draw_word(desired: int, spoken: float, which: float, tables: Tables) -> int:
 def response_log_likelihood(response: Words, asked: int | None, problem: Problem, rate: float) -> Vector:
     """Log probability of the response words given each item as the desired one, log p(l_r | i_d, i_r) (Eq. 6).
 
-    Choice: Table I gives the probability of the class of a response word; within it each word is equally likely, so that
-    the probabilities of all words sum to 1.
-    asked: index of i_r, or None. rate: chance of a response, see `answer_rate`. Returns (n_items,).
+    Choice: Table I gives the probability of the class of a response word; within it each word is equally likely, so
+    that the probabilities of all words sum to 1. asked: index of i_r, or None. rate: chance of a response, see
+    `answer_rate`. Returns (n_items,).
     """
     if not response:
         return np.full(problem.n_items, _log(1.0 - rate))
@@ -99,7 +99,7 @@ def response_log_likelihood(response: Words, asked: int | None, problem: Problem
     return result
 
 
-def sample_response(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Words:  # noqa: PLR0913
+def sample_response(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Words:
     """Draw the response of one step: one word, or none (Table I, Section III-D-1)."""
     if rng.random() >= rate:
         return ()
@@ -112,8 +112,8 @@ def sample_response(desired: int, asked: int | None, problem: Problem, rate: flo
 def answer_rate(action: Action, problem: Problem) -> float:
     """Return the chance of a response in the step after `action`.
 
-    Choice: Eq. 6 lets the person answer anew at every step once something was asked; real people answer once. So in a step
-    after a wait, p_l is multiplied by p_answer_again (1 by default: the paper to the letter).
+    Choice: Eq. 6 lets the person answer anew at every step once something was asked; real people answer once. So in a
+    step after a wait, p_l is multiplied by p_answer_again (1 by default: the paper to the letter).
     """
     return problem.tables.p_again if isinstance(action, Wait) else problem.tables.p_l
 

@@ -1,7 +1,7 @@
 """The two layouts of Section IV-A, as plain data in the form of a scene file.
 
-Choice: the paper gives the distances between items and to the person, but no coordinates, head or table height; ours are
-a head at 1.6 m over the origin and a table at 0.75 m, so that 1.22 m and 3.2 m are distances along the floor.
+Choice: the paper gives the distances between items and to the person, but no coordinates, head or table height; ours
+are a head at 1.6 m over the origin and a table at 0.75 m, so that 1.22 m and 3.2 m are distances along the floor.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ def log_likelihood(observation: Observation, asked: int | None, problem: Problem
     return result
 
 
-def sample(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Observation:  # noqa: PLR0913
+def sample(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Observation:
     """Draw an observation o ~ p(o | i_d, i_r). rate: chance of a response, see `language.answer_rate`."""
     base = language.sample_base(desired, problem, rng)
     response = language.sample_response(desired, asked, problem, rate, rng)

@@ -45,7 +45,8 @@ class Recognizer(Protocol):
     """Ears: turn sound into timed words."""
 
     def hear(self, until: float) -> Sequence[Word]:
-        """Listen until the stream's time `until` (s) and return the words that ended by then, each exactly once, in order.
+        """Listen until the stream's time `until` (s) and return the words that ended by then, each exactly once, in
+        order.
 
         After the end of the stream there is silence: it returns at once, with what was left and then nothing.
         Raises AudioError for a stream that breaks.

@@ -30,7 +30,9 @@ def angle_between(direction: Vector, x: float, y: float, z: float) -> float:
 
 @compiled
 def angles_from(head: Vector, wrist: Vector, positions: Vector) -> Vector:
-    """Return the angle (rad) of the ray from head through wrist to each position. (3,), (3,), (n, 3) m; returns (n,)."""
+    """Return the angle (rad) of the ray from head through wrist to each position. (3,), (3,), (n, 3) m; returns
+    (n,).
+    """
     x, y, z = wrist[0] - head[0], wrist[1] - head[1], wrist[2] - head[2]
     result = np.empty(len(positions))
     for item in range(len(positions)):
@@ -93,16 +95,16 @@ def _polar(directions: Vector, item: int, distance: Vector, bearing: Vector) -> 
     for other in range(len(directions)):
         x, y, z = directions[other, 0], directions[other, 1], directions[other, 2]
         distance[other] = angle_between(directions[item], x, y, z)
-        bearing[other] = math.atan2(
-            north[0] * x + north[1] * y + north[2] * z, east[0] * x + east[1] * y + east[2] * z
-        )
+        bearing[other] = math.atan2(north[0] * x + north[1] * y + north[2] * z, east[0] * x + east[1] * y + east[2] * z)
 
 
 @compiled
-def _arcs(  # noqa: PLR0913
+def _arcs(
     item: int, angle: float, threshold: float, distance: Vector, bearing: Vector, starts: Vector, ends: Vector
 ) -> int:
-    """Fill in the arcs of rolls at `angle` around `item` that lie within `threshold` of another item; return how many."""
+    """Fill in the arcs of rolls at `angle` around `item` that lie within `threshold` of another item; return how
+    many.
+    """
     arcs = 0
     for other in range(len(distance)):
         apart = distance[other]

@@ -61,8 +61,8 @@ def run_episode(problem: Problem, planner: Planner, desired: int, person: Genera
 def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Summary:
     """Play `episodes` interactions, each item being the desired one equally often; same seed, same result.
 
-    The person of an episode draws from a stream of the seed and the episode's number alone, so that planners are compared
-    on the same people.
+    The person of an episode draws from a stream of the seed and the episode's number alone, so that planners are
+    compared on the same people.
     """
     robot = np.random.default_rng(seed)
     played = [

@@ -65,7 +65,7 @@ def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
     if (head is None) != (wrist is None):
         missing = "head" if head is None else "wrist"
         raise EventError("found none, expected head and wrist, or neither", field=missing)
-    ray = None if head is None else Ray(head, wrist)
+    ray = None if head is None or wrist is None else Ray(head, wrist)
     return Observed(Observation(tokenize(utterance), ray), words, time)
 
 

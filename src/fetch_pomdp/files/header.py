@@ -13,8 +13,8 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.files.events import item_index
 from fetch_pomdp.errors import EventError, InputError, SceneError
+from fetch_pomdp.files.events import item_index
 
 VERSION = 1
 

@@ -51,6 +51,12 @@ class EventLog:
         """Add an event."""
         self._write(event_to_json(event, self._scene))
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stream.close()
+
     def _write(self, fields: Mapping[str, Any]) -> None:
         self._stream.write(json.dumps(fields, ensure_ascii=False) + "\n")
         self._stream.flush()

@@ -38,10 +38,10 @@ LeafName = Literal["pick", "question"]
 class ExactAnswers:
     """Search that samples words and pointing once for all actions of a node, and sums the answers exactly.
 
-    Words and pointing do not depend on the action, so one sample serves all questions and differences between actions carry
-    little noise. What follows the last action looked at is closed by a leaf (see `planners.leaf`): `pick`, or `question`.
-    Width 0 stands for a number of samples by the number of items: 40 a node for small tables, 10 for the largest.
-    Raises PlannerError for a depth or width that is no whole number in range, or an unknown leaf.
+    Words and pointing do not depend on the action, so one sample serves all questions and differences between actions
+    carry little noise. What follows the last action looked at is closed by a leaf (see `planners.leaf`): `pick`, or
+    `question`. Width 0 stands for a number of samples by the number of items: 40 a node for small tables, 10 for the
+    largest. Raises PlannerError for a depth or width that is no whole number in range, or an unknown leaf.
     """
 
     depth: int = 2
@@ -89,7 +89,8 @@ def plan_exact(belief: Vector, asked: int, search: Search, seed: int, tables: Ta
 
 @compiled
 def next_answer(level: int, search: Search, work: Work, tables: Tables) -> bool:
-    """Move a node's cursor to its next sample, action and answer and put the belief then one level down; False at the end.
+    """Move a node's cursor to its next sample, action and answer and put the belief then one level down; False at the
+    end.
 
     A sample has 3 branches an action: silence, yes, no; where nothing was asked a wait has one.
     """

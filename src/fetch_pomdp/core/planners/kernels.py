@@ -147,7 +147,7 @@ def answered(heard: Vector, about: int, answer: int, rate: float, belief: Vector
         return 1.0 if about == NOBODY else 1.0 - rate
     true, false = tables.p_truth, 1.0 - tables.p_truth
     own, others = (true, false) if answer == YES else (false, true)
-    chance = own * heard[about] + others * (1.0 - heard[about])
+    chance = float(own * heard[about] + others * (1.0 - heard[about]))
     if chance > 0.0:
         for item in range(len(heard)):
             belief[item] = heard[item] * (others / chance)
@@ -158,7 +158,7 @@ def answered(heard: Vector, about: int, answer: int, rate: float, belief: Vector
 @inlined
 def largest(belief: Vector) -> float:
     """Return the largest belief."""
-    found = belief[0]
+    found = float(belief[0])
     for item in range(1, len(belief)):
         found = max(found, belief[item])
     return found
@@ -168,15 +168,15 @@ def largest(belief: Vector) -> float:
 def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
     """Return the value of a node whose totals are complete: the best of picks, a wait and questions."""
     best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(work.beliefs[level])
-    best = max(best, tables.wait + work.totals[level, -1] / search.width)
+    best = max(best, tables.wait + float(work.totals[level, -1]) / search.width)
     for item in range(search.questions):
-        best = max(best, tables.point + work.totals[level, item] / search.width)
+        best = max(best, tables.point + float(work.totals[level, item]) / search.width)
     return best
 
 
 @compiled
 def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
-    """Return what a search that is complete knows at its root; questions that it may not ask are worth NaN."""
+    """Return what a search that is complete knows at its root."""
     belief, count = work.beliefs[0], work.beliefs.shape[1]
     means, errors = np.empty(count + 1), np.empty(count + 1)
     for action in range(count + 1):
@@ -186,8 +186,8 @@ def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
     pick, point = np.empty(count), np.empty(count)
     for item in range(count):
         pick[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
-        point[item] = tables.point + means[item] if search.questions > 0 else np.nan
-    return tables.wait + means[count], point, pick, errors[count], errors[:count]
+        point[item] = tables.point + means[item]
+    return float(tables.wait + means[count]), point, pick, float(errors[count]), errors[:count]
 
 
 @inlined

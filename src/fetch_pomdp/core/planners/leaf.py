@@ -1,15 +1,16 @@
 """What the searches put at the end of the actions they look ahead, in closed form.
 
-Leaf `pick`: with one action left, the best pick or the reward of a wait. Choice: the paper names no leaf.
-Leaf `question`: also the value of asking about one of the two leading items, or of the question already asked, and waiting
-its answer out. With b1, b2 the two leading beliefs, D = pick_correct - pick_wrong, a person who answers with chance p_l at
-once and p_again = p_l * p_answer_again in each later step, and a pick of the first after "yes" and of the second after "no":
+Leaf `pick`: with one action left, the best pick or the reward of a wait. Choice: the paper names no leaf. Leaf
+`question`: also the value of asking about one of the two leading items, or of the question already asked, and waiting
+its answer out. With b1, b2 the two leading beliefs, D = pick_correct - pick_wrong, a person who answers with chance
+p_l at once and p_again = p_l * p_answer_again in each later step, and a pick of the first after "yes" and of the
+second after "no":
 
     settled  = D p_truth (b1 + b2) + pick_wrong
     question = point + p_l settled + (1 - p_l) max(settled + wait / p_again, best pick)
 
-that is about 22.5 p_truth (b1 + b2) - 18.55 with the paper's numbers. It ignores what else is heard while the robot waits,
-so it is the value of a policy that can be followed: a lower bound. With p_again = 0 nothing is waited for.
+that is about 22.5 p_truth (b1 + b2) - 18.55 with the paper's numbers. It ignores what else is heard while the robot
+waits, so it is the value of a policy that can be followed: a lower bound. With p_again = 0 nothing is waited for.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ class Leading(NamedTuple):
 
 
 @inlined
-def leaf_of(patient: bool, tables: Tables) -> Leaf:  # noqa: FBT001
+def leaf_of(patient: bool, tables: Tables) -> Leaf:
     """Return the prices of a leaf under a problem."""
     patience = tables.wait / tables.p_again if tables.p_again > 0.0 else -1e300
     gain = tables.pick_correct - tables.pick_wrong
@@ -86,7 +87,8 @@ def leaf_value(mass: float, b1: float, b2: float, held: float, leaf: Leaf) -> fl
 
 @inlined
 def answered_leaf(belief: Vector, about: int, rate: float, top: Leading, leaf: Leaf) -> float:
-    """Return the expected leaf value after an answer, or silence, about an item (Eq. 6, Table I); about < 0: none asked.
+    """Return the expected leaf value after an answer, or silence, about an item (Eq. 6, Table I); about < 0: none
+    asked.
 
     An answer scales the belief in the item asked about against all others alike, so the leaders decide.
     """

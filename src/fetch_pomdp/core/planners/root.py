@@ -10,7 +10,7 @@ from numpy.random import Generator
 
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
-from fetch_pomdp.core.planners.base import Decision, best_action, pick_values
+from fetch_pomdp.core.planners.base import Decision, best_action, pick_values, unvalued
 from fetch_pomdp.core.planners.kernels import NOBODY, RootValues, Search
 from fetch_pomdp.core.planners.leaf import leading, leaf_of
 from fetch_pomdp.core.problem import Problem, Tables
@@ -21,7 +21,9 @@ _log = logging.getLogger(__name__)
 _compiled: set[Kernel] = set()  # searches that this process has told its user about
 
 
-def searched(kernel: Kernel, problem: Problem, belief: Belief, asked: int | None, search: Search, rng: Generator) -> Decision:  # noqa: PLR0913
+def searched(
+    kernel: Kernel, problem: Problem, belief: Belief, asked: int | None, search: Search, rng: Generator
+) -> Decision:
     """Return the decision of a search of two actions or more; questions that it may not ask are worth NaN."""
     if kernel not in _compiled:
         _compiled.add(kernel)
@@ -29,6 +31,8 @@ def searched(kernel: Kernel, problem: Problem, belief: Belief, asked: int | None
     seed = int(rng.random() * 2.0**53)
     about = NOBODY if asked is None else asked
     wait, point, pick, wait_error, point_errors = kernel(belief.probabilities, about, search, seed, problem.tables)
+    if search.questions == 0:
+        point = point_errors = unvalued(problem)
     return Decision(best_action(wait, point, pick), wait, point, pick, wait_error, point_errors)
 
 
@@ -40,7 +44,9 @@ def last_action(problem: Problem, belief: Belief) -> Decision:
 
 
 def patient_last_action(problem: Problem, belief: Belief, asked: int | None) -> Decision:
-    """Return the decision of leaf `question` itself: ask and wait the answer out, wait out the one asked for, or pick."""
+    """Return the decision of leaf `question` itself: ask and wait the answer out, wait out the one asked for, or
+    pick.
+    """
     tables, probabilities = problem.tables, belief.probabilities
     leaf, top = leaf_of(True, tables), leading(probabilities)
     pick = pick_values(probabilities, problem)

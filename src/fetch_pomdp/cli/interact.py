@@ -1,0 +1,151 @@
+"""The command fetch: one whole interaction, on recordings, streams or at the terminal."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+
+from fetch_pomdp.adapters.robot.console import ConsoleRobot
+from fetch_pomdp.adapters.typed import TypedPerson
+from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
+from fetch_pomdp.cli.options import Depth, Json, PlannerName, SceneName, Seed, Width, warm_up
+from fetch_pomdp.cli.show import belief_to_json, decision_to_json, show_event
+from fetch_pomdp.core.action import Pick
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.interaction import Timing, interact
+from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.planners.catalogue import DEFAULT
+from fetch_pomdp.core.ports import Recognizer, SkeletonSource
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.errors import InputError
+from fetch_pomdp.files.events import event_to_json
+from fetch_pomdp.files.header import Header
+from fetch_pomdp.files.recordings import EventLog
+
+STREAM = "-"
+MICROPHONE = "mic"
+
+Audio = Annotated[
+    str | None,
+    typer.Option(metavar="F.wav", help="Speech: a PCM WAV file, - for raw PCM on standard input, or mic."),
+]
+Rate = Annotated[int, typer.Option(min=8000, max=192_000, help="Hz, of raw PCM: 16 bit, little-endian, mono.")]
+Skeleton = Annotated[
+    str | None, typer.Option(metavar="F.jsonl", help="Head and wrists, JSON Lines; - for standard input.")
+]
+Log = Annotated[Path | None, typer.Option(metavar="OUT.jsonl", help="Write what happens to a new file, as it happens.")]
+
+
+def fetch(
+    scene: SceneName,
+    audio: Audio = None,
+    skeleton: Skeleton = None,
+    rate: Rate = 16_000,
+    planner: PlannerName = None,
+    depth: Depth = None,
+    width: Width = None,
+    seed: Seed = None,
+    log: Log = None,
+    json_lines: Json = False,
+) -> None:
+    """Run one whole interaction: hear, see, decide, until an item is handed over.
+
+    With --audio or --skeleton the person is a recording or a stream. With neither you are the person: type what you
+    would say, with @item for an item that you point at.
+    """
+    table = Scene.load(scene)
+    parameters = {name: value for name, value in (("depth", depth), ("width", width)) if value is not None}
+    named = scene if scene in LAYOUTS else None
+    header = Header(scene=table, scene_name=named, planner=planner or DEFAULT, parameters=parameters, seed=seed or 0)
+    agent = header.agent()
+    console = Console(highlight=False, stderr=json_lines)
+    with contextlib.ExitStack() as open_files:
+        typed = audio is None and skeleton is None
+        ears, eyes = _typed(table, console) if typed else _sensors(table, audio, skeleton, rate)
+        record = open_files.enter_context(EventLog.create(log, header)) if log else None
+        warm_up(agent.planner)
+        said: list[str] = []
+        timing = Timing(wait=1.0, question=1.0) if typed else Timing()
+        events = interact(agent, ConsoleRobot(said.append), ears, eyes, timing=timing)
+        _follow(_recorded(events, record), agent, said, console, json_lines=json_lines)
+
+
+def _typed(scene: Scene, console: Console) -> tuple[Recognizer, SkeletonSource]:
+    console.print("On the table:")
+    for item in scene.items[:20]:
+        console.print(f"  {escape(item.id)}  [dim]{escape(', '.join(item.vocabulary))}[/dim]")
+    console.print(
+        "Say what you want, as to a person. @marker-1 points at it; an empty line is silence; Ctrl-D leaves.\n"
+    )
+    person = TypedPerson(scene, lambda: console.input("[bold]you:[/bold] "), lambda line: console.print(escape(line)))
+    return person, person
+
+
+def _sensors(
+    scene: Scene, audio: str | None, skeleton: str | None, rate: int
+) -> tuple[Recognizer | None, SkeletonSource | None]:
+    if audio == skeleton == STREAM:
+        raise InputError("found - for both --audio and --skeleton, expected one of them from standard input")
+    eyes: SkeletonSource | None = None
+    if skeleton is not None:
+        opened = RecordedSkeleton.stream(sys.stdin.buffer) if skeleton == STREAM else RecordedSkeleton.open(skeleton)
+        eyes = opened
+    return _ears(scene, audio, rate), eyes
+
+
+def _ears(scene: Scene, audio: str | None, rate: int) -> Recognizer | None:
+    if audio is None:
+        return None
+    from fetch_pomdp.adapters.speech.audio import open_microphone, open_raw, open_wav
+    from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
+
+    if audio == MICROPHONE:
+        sound = open_microphone()
+    elif audio == STREAM:
+        sound = open_raw(sys.stdin.buffer, rate, "standard input")
+    else:
+        sound = open_wav(audio)
+    return SphinxRecognizer(sound, {word for item in scene.items for word in item.vocabulary})
+
+
+def _recorded(events: Iterator[Event], record: EventLog | None) -> Iterator[Event]:
+    for event in events:
+        if record is not None:
+            record.write(event)
+        yield event
+
+
+def _follow(events: Iterator[Event], agent: Agent, said: list[str], console: Console, *, json_lines: bool) -> None:
+    """Show events, and what the robot said in each, until the interaction ends or the person leaves."""
+    picked: str | None = None
+    with contextlib.suppress(EOFError):
+        for event in events:
+            if isinstance(event, Acted) and event.done and isinstance(event.action, Pick):
+                picked = agent.scene.items[event.action.item].id
+            if json_lines:
+                print(json.dumps(_as_line(event, agent), ensure_ascii=False), flush=True)
+            else:
+                show_event(event, agent, console)
+                for line in said:
+                    console.print(f"[green]         robot: {escape(line)}[/green]", soft_wrap=True)
+            said.clear()
+    if json_lines:
+        print(json.dumps({"picked": picked}, ensure_ascii=False))
+    elif picked is None:
+        console.print("\nNothing was handed over.")
+
+
+def _as_line(event: Event, agent: Agent) -> dict[str, object]:
+    fields = {**event_to_json(event, agent.scene), **belief_to_json(agent)}
+    if isinstance(event, Acted) and event.decision is not None:
+        fields["values"] = decision_to_json(event.decision, agent.scene)["values"]
+    return fields

@@ -1,0 +1,37 @@
+"""The command fetch-pomdp."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+
+from fetch_pomdp.cli.interact import fetch
+from fetch_pomdp.cli.offline import decide, filter_events, simulate
+from fetch_pomdp.errors import FetchPomdpError
+
+app = typer.Typer(
+    help="A robot that fetches: it waits, asks or picks, by what it hears and sees (the FETCH-POMDP).\n\n"
+    "Start with: fetch-pomdp fetch ambiguous",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+app.command()(fetch)
+app.command("filter")(filter_events)
+app.command()(decide)
+app.command()(simulate)
+
+
+def main() -> None:
+    """Run the command; bad input is one line on standard error and exit code 2."""
+    try:
+        app()
+    except FetchPomdpError as error:
+        print(f"fetch-pomdp: {error}", file=sys.stderr)
+        sys.exit(2)
+    except BrokenPipeError:  # whoever read the output has left
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)

@@ -1,0 +1,95 @@
+"""Commands on recorded and simulated interactions: filter, decide, simulate."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from fetch_pomdp.cli.options import Depth, Json, PlannerName, SceneName, Seed, Width, as_json, built_planner, warm_up
+from fetch_pomdp.cli.show import belief_to_json, decision_to_json, show_event
+from fetch_pomdp.core.events import Acted, Observed
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.simulation import simulate as simulated
+from fetch_pomdp.errors import EventError
+from fetch_pomdp.files.recordings import read_recording
+
+Events = Annotated[Path, typer.Argument(metavar="EVENTS.jsonl", help="A recorded interaction, one JSON object a line.")]
+
+
+def filter_events(events: Events, json_lines: Json = False) -> None:
+    """Print the belief after every observation of a recorded interaction.
+
+    On a terminal as bars; with --json, or into a file or pipe, one JSON object a line:
+    {"belief": {ID: probability, ...}, "asked": ID or null}.
+    """
+    recording = read_recording(events)
+    agent = recording.header.agent()
+    console = Console(highlight=False)
+    for event in recording.replay(agent):
+        if not as_json(json_lines):
+            show_event(event, agent, console)
+        elif isinstance(event, Observed):
+            print(json.dumps(belief_to_json(agent), ensure_ascii=False))
+
+
+def decide(
+    events: Events,
+    planner: PlannerName = None,
+    depth: Depth = None,
+    width: Width = None,
+    seed: Seed = None,
+    json_lines: Json = False,
+) -> None:
+    """Print what the robot would do at the end of a recorded interaction, and the value of every action.
+
+    Planner and seed are those of the recording unless given, so the decisions of a log come out again.
+    """
+    recording = read_recording(events)
+    if recording.over:
+        raise EventError(
+            "found a pick that was done, expected an interaction that is still going on", source=str(events)
+        )
+    agent = recording.header.agent(planner=planner, seed=seed, depth=depth, width=width)
+    for _ in recording.replay(agent):
+        pass
+    warm_up(agent.planner)
+    decision = agent.decide()
+    if as_json(json_lines):
+        print(json.dumps(decision_to_json(decision, agent.scene), ensure_ascii=False))
+        return
+    console = Console(highlight=False)
+    show_event(Acted(decision.action, decision=decision), agent, console)
+
+
+def simulate(
+    scene: SceneName,
+    planner: PlannerName = None,
+    depth: Depth = None,
+    width: Width = None,
+    episodes: Annotated[int, typer.Option(min=1, help="How many interactions to play.")] = 10_000,
+    seed: Seed = None,
+    json_lines: Json = False,
+) -> None:
+    """Play interactions with a person sampled from the model itself, and print how well the planner did.
+
+    The person says one word of the scene a step, points now and then, and answers questions. Each item is the desired
+    one equally often; the same seed gives the same people to every planner.
+    """
+    problem = Problem(Scene.load(scene))
+    chosen = built_planner(planner, depth=depth, width=width)
+    warm_up(chosen)
+    summary = dataclasses.asdict(simulated(problem, chosen, episodes, seed or 0))
+    if as_json(json_lines):
+        print(json.dumps(summary))
+        return
+    table = Table("figure", "value", title=f"{scene}, {chosen}")
+    for name, value in summary.items():
+        table.add_row(name.replace("_", " "), f"{value:.4g}" if isinstance(value, float) else f"{value:,}")
+    Console(highlight=False).print(table)

@@ -1,0 +1,50 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.planners.base import Planner
+from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Scene
+
+SceneName = Annotated[
+    str, typer.Argument(metavar="SCENE", help="ambiguous, unambiguous, or the path of a TOML file (docs/scenes.md).")
+]
+PlannerName = Annotated[str | None, typer.Option(help=f"One of {', '.join(PLANNERS)}.  [default: {DEFAULT}]")]
+Depth = Annotated[int | None, typer.Option(help="Actions the planner looks ahead, for planners that search.")]
+Width = Annotated[int | None, typer.Option(help="Observations sampled at each node, for planners that search.")]
+Seed = Annotated[int | None, typer.Option(min=0, help="The same seed gives the same result.  [default: 0]")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
+
+PATIENCE = 1.5  # s before a user is told why nothing happens
+
+
+def built_planner(name: str | None, **parameters: Any) -> Planner:
+    """Return a planner by name, with the parameters that were given."""
+    return planner_named(name or DEFAULT, **parameters)
+
+
+def as_json(asked: bool) -> bool:
+    """Whether to print for a program: when asked to, or when the output is no terminal."""
+    return asked or not sys.stdout.isatty()
+
+
+def warm_up(planner: Planner) -> None:
+    """Load the compiled planner, and say so on standard error where that takes long: the first time it is compiled."""
+    message = "Compiling the planner, once after installation: up to half a minute ..."
+    timer = threading.Timer(PATIENCE, lambda: print(message, file=sys.stderr, flush=True))
+    timer.daemon = True
+    timer.start()
+    try:
+        problem = Problem(Scene.load("ambiguous"))
+        planner.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
+    finally:
+        timer.cancel()
