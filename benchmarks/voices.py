@@ -1,0 +1,94 @@
+"""Spoken sentences as 16 kHz WAV files, made by espeak-ng, flite and sox: clean, or in white noise at an exact SNR."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import wave
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+RATE = 16_000  # Hz
+BEFORE, AFTER = 0.5, 1.0  # s of silence around a sentence
+TOOLS = ("espeak-ng", "flite", "sox")
+
+ESPEAK = [(voice, speed) for speed in (130, 175) for voice in ("en-us", "en-gb", "en-us+f3", "en-us+m3", "en-us+f2")]
+FLITE = ("slt", "rms", "awb", "kal16")
+VOICES = (*(f"espeak-{voice}-{speed}" for voice, speed in ESPEAK), *(f"flite-{voice}" for voice in FLITE))
+SNRS = (None, 20, 10, 5)  # dB; None is clean
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """One sentence, said by one voice, at one signal-to-noise ratio."""
+
+    text: str
+    voice: str
+    snr: int | None  # dB
+    path: Path
+
+
+def missing_tools() -> list[str]:
+    """Return the apt packages that are not installed."""
+    return [tool for tool in TOOLS if shutil.which(tool) is None]
+
+
+def record(texts: list[str], folder: Path, voices: tuple[str, ...] = VOICES, snrs: tuple[int | None, ...] = SNRS) -> list[Recording]:
+    """Make, or find in `folder`, every text by every voice at every SNR (dB)."""
+    folder.mkdir(parents=True, exist_ok=True)
+    return [recording for text in texts for voice in voices for recording in _said(text, voice, folder, snrs)]
+
+
+def _said(text: str, voice: str, folder: Path, snrs: tuple[int | None, ...]) -> Iterator[Recording]:
+    name = f"{text.replace(' ', '-')}_{voice}"
+    clean = folder / f"{name}_clean.wav"
+    if not clean.exists():
+        _write(clean, _padded(_speak(text, voice, folder / "voice.wav")))
+    for snr in snrs:
+        path = clean if snr is None else folder / f"{name}_{snr}dB.wav"
+        if not path.exists():
+            _write(path, _noisy(_read(clean), float(snr or 0), seed=zlib.crc32(path.name.encode())))
+        yield Recording(text, voice, snr, path)
+
+
+def _speak(text: str, voice: str, scratch: Path) -> NDArray[np.int16]:
+    engine, name = voice.split("-", 1)
+    if engine == "flite":
+        command = ["flite", "-voice", name, "-t", text, "-o", str(scratch)]
+    else:
+        name, speed = name.rsplit("-", 1)
+        command = ["espeak-ng", "-v", name, "-s", speed, "-w", str(scratch), text]
+    subprocess.run(command, check=True, capture_output=True)
+    resampled = scratch.with_name("resampled.wav")
+    # -G keeps resampling from clipping, -D leaves out sox's own random dither: the same file every time
+    subprocess.run(["sox", "-G", "-D", str(scratch), "-r", str(RATE), "-b", "16", "-c", "1", str(resampled)], check=True)
+    return _read(resampled)
+
+
+def _padded(samples: NDArray[np.int16]) -> NDArray[np.int16]:
+    return np.pad(samples, (int(BEFORE * RATE), int(AFTER * RATE)))
+
+
+def _noisy(samples: NDArray[np.int16], snr: float, seed: int) -> NDArray[np.int16]:
+    """Add white noise `snr` dB under the mean power of the sentence, its padding left out."""
+    speech = samples[int(BEFORE * RATE) : -int(AFTER * RATE)].astype(float)
+    loudness = np.sqrt(np.mean(speech**2))
+    noise = np.random.default_rng(seed).standard_normal(len(samples)) * loudness * 10 ** (-snr / 20)
+    mixed = samples + noise
+    return np.asarray(np.round(mixed * min(1.0, 32767 / np.abs(mixed).max())), np.int16)
+
+
+def _read(path: Path) -> NDArray[np.int16]:
+    with wave.open(str(path)) as sound:
+        return np.frombuffer(sound.readframes(sound.getnframes()), np.int16)
+
+
+def _write(path: Path, samples: NDArray[np.int16]) -> None:
+    with wave.open(str(path), "wb") as sound:
+        sound.setparams((1, 2, RATE, 0, "NONE", ""))
+        sound.writeframes(samples.tobytes())

@@ -1,0 +1,85 @@
+"""Cuts sound into utterances at the silences between them.
+
+Choice: a frame is speech when it is louder than the quietest moment of the last seconds, so that steady noise of any level
+counts as silence (webrtcvad takes noise at 20 dB SNR for speech throughout). Taking a noise for speech costs only time:
+the decoder then finds no words in it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from fetch_pomdp.adapters.speech.audio import RATE, Samples, Sound
+
+FRAME = 160  # samples: 10 ms, as the decoder's frames
+BAND = slice(2, 40)  # bins of 100 Hz: where the energy of speech is, without hum
+SMOOTH = 5  # frames a level is averaged over
+QUIETEST = 14.0  # dB, 5 of 32768: below it everything is silence, also digital zeros
+ONSET, OFFSET = 4.5, 3.0  # dB above the floor where speech begins and ends
+MEMORY = 300  # frames the floor is the minimum of
+PADDING = 30  # frames kept before and after speech, for its quiet consonants
+PAUSE = 50  # frames of silence that end an utterance
+LONGEST = 1000  # frames; a longer utterance is cut at the quietest of its last MEMORY frames
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """A stretch of sound with speech in it."""
+
+    start: float  # s on the clock of the stream
+    samples: Samples
+
+
+class Utterances:
+    """The utterances of a Sound, found while it is read. Holds at most LONGEST frames."""
+
+    def __init__(self, sound: Sound) -> None:
+        self._sound = sound
+        self._kept: list[Samples] = []  # frames read and not given away; the last one is frame `_count` - 1
+        self._count = 0
+        self._powers: deque[float] = deque(maxlen=SMOOTH)
+        self._levels: deque[float] = deque(maxlen=MEMORY)  # dB
+        self._quiet = 0  # frames since speech
+        self.speaking = False  # whether someone is in mid-utterance
+        self.ended = False
+
+    @property
+    def time(self) -> float:
+        """How much of the stream (s) has been read."""
+        return self._count * FRAME / RATE
+
+    def step(self) -> Utterance | None:
+        """Read 10 ms; return an utterance if one ended with them. Raises AudioError for a stream that breaks."""
+        frame = self._sound.read(FRAME)
+        if len(frame) < FRAME:
+            self.ended = True
+            return self._give(len(self._kept)) if self.speaking else None
+        self._kept.append(frame)
+        self._count += 1
+        above = self._above_floor(frame)
+        self.speaking = self.speaking or above > ONSET
+        self._quiet = 0 if above > OFFSET else self._quiet + 1
+        if not self.speaking:
+            del self._kept[:-PADDING]
+        elif self._quiet >= PAUSE:
+            self.speaking = False
+            return self._give(len(self._kept) - PAUSE + PADDING)
+        elif len(self._kept) >= LONGEST:
+            return self._give(len(self._kept) - MEMORY + int(np.argmin(self._levels)) - SMOOTH // 2)
+        return None
+
+    def _above_floor(self, frame: Samples) -> float:
+        self._powers.append(float(np.square(np.abs(np.fft.rfft(frame)[BAND])).sum()))
+        power = 2 * sum(self._powers) / len(self._powers) / FRAME**2  # mean square, by Parseval
+        self._levels.append(max(QUIETEST, 10 * math.log10(power + 1)))
+        return self._levels[-1] - min(self._levels)
+
+    def _give(self, count: int) -> Utterance:
+        start = (self._count - len(self._kept)) * FRAME / RATE
+        given, self._kept = self._kept[:count], self._kept[count:]
+        return Utterance(start, np.concatenate(given))
