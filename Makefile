@@ -1,0 +1,52 @@
+# Two commands for a newcomer: make demo, make test.
+PYTHON ?= python3
+BIN := .venv/bin
+RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
+
+.PHONY: demo test lint coverage bench picture requirements clean
+
+demo: .venv/installed
+	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
+	@if [ -t 0 ]; then printf '\nNow you: the robot is listening.\n'; $(BIN)/fetch-pomdp fetch ambiguous; \
+	else echo 'On a terminal your turn comes now: .venv/bin/fetch-pomdp fetch ambiguous'; fi
+
+test: .venv/tested lint coverage
+	$(BIN)/pytest
+
+lint: .venv/tested
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+# Compiled code leaves no trace in a coverage report, so the core is measured in a second short run without compilation.
+coverage: .venv/tested
+	NUMBA_DISABLE_JIT=1 $(BIN)/pytest tests/core -m 'not slow' --cov=fetch_pomdp.core --cov-report=term --cov-fail-under=95
+
+bench: .venv/tested
+	$(BIN)/pip install -q -r requirements/bench.txt
+	$(BIN)/python benchmarks/planners.py
+	$(BIN)/python benchmarks/speech.py
+
+picture: .venv/installed
+	$(BIN)/python docs/make_picture.py
+
+.venv/installed: pyproject.toml requirements/run.txt
+	@$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
+	@echo 'Installing into .venv, a minute or two ...'
+	@$(PYTHON) -m venv .venv
+	@$(BIN)/pip install -q --disable-pip-version-check -r requirements/run.txt
+	@$(BIN)/pip install -q --disable-pip-version-check --no-deps -e .
+	@touch $@
+
+.venv/tested: .venv/installed requirements/test.txt
+	@$(BIN)/pip install -q --disable-pip-version-check -r requirements/test.txt
+	@touch $@
+
+# Pins without registry addresses; needs uv.
+requirements:
+	uv pip compile pyproject.toml --universal --extra speech --no-header --no-annotate -q -o requirements/run.txt
+	uv pip compile pyproject.toml --universal --extra speech --group dev --no-header --no-annotate -q -o requirements/test.txt
+	uv pip compile pyproject.toml --universal --extra speech --group dev --group bench --no-header --no-annotate -q -o requirements/bench.txt
+
+clean:
+	rm -rf .venv .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
