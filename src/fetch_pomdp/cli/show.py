@@ -93,7 +93,7 @@ def why(decision: Decision, scene: Scene) -> str:
         parts.append(f"ask about {_best(decision.point, scene)}")
     if not math.isnan(decision.wait):
         parts.append(f"wait {decision.wait:+.2f}")
-    return f"({', '.join(parts)})"
+    return "expects " + ", ".join(parts)
 
 
 def _best(values: Vector, scene: Scene) -> str:
