@@ -38,7 +38,9 @@ def missing_tools() -> list[str]:
     return [tool for tool in TOOLS if shutil.which(tool) is None]
 
 
-def record(texts: list[str], folder: Path, voices: tuple[str, ...] = VOICES, snrs: tuple[int | None, ...] = SNRS) -> list[Recording]:
+def record(
+    texts: list[str], folder: Path, voices: tuple[str, ...] = VOICES, snrs: tuple[int | None, ...] = SNRS
+) -> list[Recording]:
     """Make, or find in `folder`, every text by every voice at every SNR (dB)."""
     folder.mkdir(parents=True, exist_ok=True)
     return [recording for text in texts for voice in voices for recording in _said(text, voice, folder, snrs)]
@@ -66,7 +68,9 @@ def _speak(text: str, voice: str, scratch: Path) -> NDArray[np.int16]:
     subprocess.run(command, check=True, capture_output=True)
     resampled = scratch.with_name("resampled.wav")
     # -G keeps resampling from clipping, -D leaves out sox's own random dither: the same file every time
-    subprocess.run(["sox", "-G", "-D", str(scratch), "-r", str(RATE), "-b", "16", "-c", "1", str(resampled)], check=True)
+    subprocess.run(
+        ["sox", "-G", "-D", str(scratch), "-r", str(RATE), "-b", "16", "-c", "1", str(resampled)], check=True
+    )
     return _read(resampled)
 
 

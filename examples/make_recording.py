@@ -56,12 +56,12 @@ def make_skeleton(path: Path, rng: np.random.Generator) -> None:
     markers = np.array([item.position for item in scene.items if "marker" in item.vocabulary])
     target = markers.mean(axis=0) - head
     raised = head + 0.6 * target / np.linalg.norm(target)
-    hanging = head + (0.25, 0.05, -0.8)
+    hanging = head + np.array([0.25, 0.05, -0.8])
     lines = []
     for frame in range(int(LENGTH * FRAMES)):
         time = frame / FRAMES
         right = raised if POINTING[0] <= time < POINTING[1] else hanging
-        points = {"head": head, "left_wrist": head + (-0.25, 0.05, -0.8), "right_wrist": right}
+        points = {"head": head, "left_wrist": head + np.array([-0.25, 0.05, -0.8]), "right_wrist": right}
         shaken = {name: (point + rng.normal(0.0, 0.01, 3)).round(3).tolist() for name, point in points.items()}
         lines.append(json.dumps({"t": round(time, 3), **shaken}))
     path.write_text("\n".join(lines) + "\n")

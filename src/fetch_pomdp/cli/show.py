@@ -15,6 +15,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import angles
+from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.words import COURTESY
@@ -39,7 +40,8 @@ def decision_to_json(decision: Decision, scene: Scene) -> dict[str, Any]:
         "point": {id: _number(value) for id, value in zip(ids, decision.point.tolist(), strict=True)},
         "pick": {id: _number(value) for id, value in zip(ids, decision.pick.tolist(), strict=True)},
     }
-    return {"item": None, **action_to_json(decision.action, scene), "values": values}
+    action = action_to_json(decision.action, scene)
+    return {"action": action["action"], "item": action.get("item"), "values": values}
 
 
 def _number(value: float) -> float | None:
@@ -47,11 +49,12 @@ def _number(value: float) -> float | None:
 
 
 def show_event(event: Event, agent: Agent, console: Console) -> None:
-    """Print what happened, and the belief after an observation."""
+    """Print what happened, and the belief after something was heard or seen."""
     time = "" if event.time is None else f"{event.time:5.1f} s  "
     if isinstance(event, Observed):
         console.print(f"[dim]{time}[/dim]{_perceived(event, agent)}", soft_wrap=True)
-        show_belief(agent, console)
+        if event.observation != Observation():
+            show_belief(agent, console)
     else:
         reason = "" if event.decision is None else f"  [dim]{why(event.decision, agent.scene)}[/dim]"
         console.print(f"[dim]{time}[/dim][bold]{_acted(event, agent.scene)}[/bold]{reason}", soft_wrap=True)

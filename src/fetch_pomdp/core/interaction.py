@@ -3,9 +3,15 @@
 Time is that of the sensors' streams, in seconds. A step begins with an action and ends with listening:
 
 - A wait listens for `Timing.wait`.
-- A question takes `Timing.question`, of which the last `Timing.wait` is listening. Choice: words that end before the
-  question has been asked cannot answer it; they belong to the step before, and so are read with the i_r of that step.
+- A question takes `Timing.question`, of which the last `Timing.wait` is listening.
 - The words that end inside a step are its utterance; the median of its pointing frames is its gesture.
+
+Choice: words that end before the question has been asked cannot answer it; they belong to the step before, and are read
+with the i_r of that step.
+
+Choice: after `Timing.silence` of waits without a word the robot says that it is listening: a person who has said all
+there is to say cannot know that it waits for more, and the paper saw interactions come to a standstill there (Section
+V).
 """
 
 from __future__ import annotations
@@ -15,7 +21,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fetch_pomdp.core.action import Action, Pick, Point
+from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray, angles
@@ -33,11 +39,12 @@ class Timing:
 
     wait: float = 1.0  # s
     question: float = 2.8  # s, asking and then listening for `wait`
+    silence: float = 4.0  # s
 
     def __post_init__(self) -> None:
-        if not 0 < self.wait <= self.question < float("inf"):
-            found = f"found wait {self.wait!r}, question {self.question!r}"
-            raise ModelError(f"{found}, expected 0 < wait <= question, in seconds", field="timing")
+        if not (0 < self.wait <= self.question < float("inf") and self.silence > 0):
+            found = f"found wait {self.wait!r}, question {self.question!r}, silence {self.silence!r}"
+            raise ModelError(f"{found}, expected 0 < wait <= question and 0 < silence, in seconds", field="timing")
 
 
 class Senses:
@@ -73,7 +80,7 @@ def interact(
     A pick that failed or was stopped ends nothing: the robot says so, listens for a wait, and decides anew.
     """
     timing = timing or Timing()
-    senses, now = Senses(agent.problem, ears, eyes), 0.0
+    senses, now, silence = Senses(agent.problem, ears, eyes), 0.0, 0.0
     for step in range(most_steps + 1):
         decision = agent.decide()
         if step == most_steps and not isinstance(decision.action, Pick):
@@ -94,6 +101,10 @@ def interact(
         now += timing.wait
         observed = senses.perceive(now)
         agent.take(observed)
+        silence = silence + timing.wait if isinstance(acted.action, Wait) and not observed.observation.words else 0.0
+        if silence >= timing.silence:
+            robot.say("I am listening.")
+            silence = 0.0
         yield observed
 
 
@@ -107,8 +118,8 @@ def _carry_out(action: Action, agent: Agent, robot: Robot) -> Outcome:
 def median_ray(frames: Sequence[Frame], problem: Problem) -> Ray | None:
     """Return the median of the frames that point at the table, or None if none does.
 
-    In each frame the arm counts that is nearest in angle to an item. Choice: the median is taken of each coordinate,
-    of the heads and of the arms' unit directions.
+    Choice: in each frame the arm counts that is nearest in angle to an item, and the median is taken of each
+    coordinate, of the heads and of the arms' unit directions.
     """
     rays = [ray for frame in frames if (ray := pointing_arm(frame, problem)) is not None]
     if not rays:

@@ -83,8 +83,9 @@ def response_log_likelihood(response: Words, asked: int | None, problem: Problem
     """Log probability of the response words given each item as the desired one, log p(l_r | i_d, i_r) (Eq. 6).
 
     Choice: Table I gives the probability of the class of a response word; within it each word is equally likely, so
-    that the probabilities of all words sum to 1. asked: index of i_r, or None. rate: chance of a response, see
-    `answer_rate`. Returns (n_items,).
+    that the probabilities of all words sum to 1.
+
+    asked: index of i_r, or None. rate: chance of a response, see `answer_rate`. Returns (n_items,).
     """
     if not response:
         return np.full(problem.n_items, _log(1.0 - rate))

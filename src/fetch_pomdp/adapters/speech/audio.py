@@ -140,7 +140,9 @@ def _microphone_blocks(microphone: Any, heard: queue.Queue[bytes], overrun: list
             try:
                 block = heard.get(timeout=5.0)
             except queue.Empty:
-                raise AudioError("found no sound for 5 s, expected a microphone that is connected", source=name) from None
+                raise AudioError(
+                    "found no sound for 5 s, expected a microphone that is connected", source=name
+                ) from None
             yield np.frombuffer(block, "<i2").astype(np.float32) / 32768
         raise AudioError(f"found {PATIENCE:.0f} s of sound nobody read, expected to be read", source=name)
     finally:

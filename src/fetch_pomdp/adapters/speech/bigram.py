@@ -73,7 +73,8 @@ def _unigrams(links, common):
         counts.update(following)
     own = sum(counts.values())
     extra = [w for w in common if w not in counts]
-    for w in counts: counts[w] += 0.002 * own
+    for w in counts:
+        counts[w] += 0.002 * own
     own = sum(counts.values())
     p = {w: c / own * ((1 - COMMON_SHARE) if extra else 1) for w, c in counts.items()}
     p |= {w: COMMON_SHARE / len(extra) for w in extra}
@@ -92,7 +93,7 @@ def _links(vocabulary):
     n = len(vocabulary)
     for d in DETERMINERS:
         for r in REQUESTS:
-            add(f"{START} {r} {d}", 1 / len(REQUESTS) / (1 if d=="the" else 3))
+            add(f"{START} {r} {d}", 1 / len(REQUESTS) / (1 if d == "the" else 3))
         add(f"{START} {d}", 0.5)
         add(f"{d} one {END}", 0.3)
         for w in vocabulary:
@@ -102,17 +103,18 @@ def _links(vocabulary):
             add(f"{START} {r} {p} {END}", 0.3 / len(REQUESTS) / len(POINTERS))
     for w in vocabulary:
         for v in vocabulary:
-            if v != w: add(f"{w} {v}", 0.5 / n / max(1, n - 1))
-        add(f"{START} {w}", .3 / n)
+            if v != w:
+                add(f"{w} {v}", 0.5 / n / max(1, n - 1))
+        add(f"{START} {w}", 0.3 / n)
         add(f"{w} {END}", 1 / n)
-        add(f"{w} please {END}", .1 / n)
-        add(f"{w} one {END}", .1 / n)
+        add(f"{w} please {END}", 0.1 / n)
+        add(f"{w} one {END}", 0.1 / n)
         for p in PLACES:
-            add(f"{w} {p} {END}", .2 / n / len(PLACES))
-        add(f"next to the {w} {END}", .2 / n / len(PLACES))
+            add(f"{w} {p} {END}", 0.2 / n / len(PLACES))
+        add(f"next to the {w} {END}", 0.2 / n / len(PLACES))
     for a in ANSWERS:
         add(f"{START} {a} {END}", 0.3)
-    for a in POSITIVE + ("no","nope"):
+    for a in POSITIVE + ("no", "nope"):
         add(f"{START} {a} the", 0.02)
     for p in POINTERS:
         add(f"{START} {p} {END}", 0.2)

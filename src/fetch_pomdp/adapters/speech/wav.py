@@ -15,7 +15,14 @@ from fetch_pomdp.errors import AudioError
 
 BLOCK = 1 << 14  # frames read at a time
 PCM, EXTENSIBLE = 0x0001, 0xFFFE
-OTHER_FORMATS = {0x0002: "ADPCM", 0x0003: "floating point", 0x0006: "A-law", 0x0007: "mu-law", 0x0011: "ADPCM", 0x0055: "MP3"}
+OTHER_FORMATS = {
+    0x0002: "ADPCM",
+    0x0003: "floating point",
+    0x0006: "A-law",
+    0x0007: "mu-law",
+    0x0011: "ADPCM",
+    0x0055: "MP3",
+}
 EXPECTED = "expected PCM of 8, 16, 24 or 32 bits"
 
 
@@ -82,7 +89,9 @@ def _layout(file: BinaryIO) -> Layout:
         raise AudioError("found no samples, expected a data chunk")
     offset, length = chunks[b"data"]
     if offset + length > size:
-        raise AudioError(f"found {size - offset} bytes of samples, expected {length} as the header says: it is cut short")
+        raise AudioError(
+            f"found {size - offset} bytes of samples, expected {length} as the header says: it is cut short"
+        )
     frames = length // (channels * width)
     if not frames:
         raise AudioError("found no samples, expected one or more")

@@ -44,8 +44,9 @@ class NeverAsk:
 class AlwaysAsk:
     """Paradigm two: asks about the likeliest item, at least once, until it is `confidence` sure of it.
 
-    Choice: it waits as long as its belief is uniform, for there is no likeliest item to ask about. It values picks
-    alone. Raises PlannerError for a confidence that is no probability above 0.
+    Choice: it waits as long as its belief is uniform, for there is no likeliest item to ask about.
+
+    It values picks alone. Raises PlannerError for a confidence that is no probability above 0.
     """
 
     confidence: float = 0.95

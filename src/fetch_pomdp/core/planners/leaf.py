@@ -1,10 +1,12 @@
 """What the searches put at the end of the actions they look ahead, in closed form.
 
-Leaf `pick`: with one action left, the best pick or the reward of a wait. Choice: the paper names no leaf. Leaf
-`question`: also the value of asking about one of the two leading items, or of the question already asked, and waiting
-its answer out. With b1, b2 the two leading beliefs, D = pick_correct - pick_wrong, a person who answers with chance
-p_l at once and p_again = p_l * p_answer_again in each later step, and a pick of the first after "yes" and of the
-second after "no":
+Choice: the paper names no leaf. Leaf `pick` is the value with one action left: the best pick or the reward of a wait.
+
+Choice: leaf `question` is also the value of asking about one of the two leading items, or of the question already
+asked, and waiting its answer out.
+
+With b1, b2 the two leading beliefs, D = pick_correct - pick_wrong, a person who answers with chance p_l at once and
+p_again = p_l * p_answer_again in each later step, and a pick of the first after "yes" and of the second after "no":
 
     settled  = D p_truth (b1 + b2) + pick_wrong
     question = point + p_l settled + (1 - p_l) max(settled + wait / p_again, best pick)

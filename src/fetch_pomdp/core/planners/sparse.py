@@ -34,11 +34,15 @@ from fetch_pomdp.core.problem import Problem, Tables
 class SparseSampling:
     """Sparse sampling on the belief MDP: `width` observations for each action at every node, `depth` actions ahead.
 
-    One base word and one response word a step (Section III-D-1). Choice: depth counts actions, so depth 2 is act,
-    observe, act; with one action left a node is worth its best pick or the reward of a wait. Choice: the paper does
-    not say how the observations of a node are drawn; here the actions share their random numbers, and desired items
-    and answers are spread evenly over their distributions. Drawn independently for each action, ten observations cost
-    0.3 (ambiguous) to 0.6 points a fetch. Raises PlannerError for a depth or width that is no whole number in range.
+    One base word and one response word a step (Section III-D-1).
+
+    Choice: depth counts actions, so depth 2 is act, observe, act.
+
+    Choice: the paper does not say how the observations of a node are drawn; here the actions share their random
+    numbers, and desired items and answers are spread evenly over their distributions. Drawn independently for each
+    action, ten observations cost 0.3 (ambiguous) to 0.6 points a fetch.
+
+    Raises PlannerError for a depth or width that is no whole number in range.
     """
 
     depth: int = 2
