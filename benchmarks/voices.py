@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import wave
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,13 +38,15 @@ def missing_tools() -> list[str]:
     return [tool for tool in TOOLS if shutil.which(tool) is None]
 
 
-def record(texts: list[str], folder: Path, voices: tuple[str, ...] = VOICES, snrs: tuple[int | None, ...] = SNRS) -> list[Recording]:
+def record(
+    texts: Sequence[str], folder: Path, voices: Sequence[str] = VOICES, snrs: Sequence[int | None] = SNRS
+) -> list[Recording]:
     """Make, or find in `folder`, every text by every voice at every SNR (dB)."""
     folder.mkdir(parents=True, exist_ok=True)
     return [recording for text in texts for voice in voices for recording in _said(text, voice, folder, snrs)]
 
 
-def _said(text: str, voice: str, folder: Path, snrs: tuple[int | None, ...]) -> Iterator[Recording]:
+def _said(text: str, voice: str, folder: Path, snrs: Sequence[int | None]) -> Iterator[Recording]:
     name = f"{text.replace(' ', '-')}_{voice}"
     clean = folder / f"{name}_clean.wav"
     if not clean.exists():
@@ -66,7 +68,8 @@ def _speak(text: str, voice: str, scratch: Path) -> NDArray[np.int16]:
     subprocess.run(command, check=True, capture_output=True)
     resampled = scratch.with_name("resampled.wav")
     # -G keeps resampling from clipping, -D leaves out sox's own random dither: the same file every time
-    subprocess.run(["sox", "-G", "-D", str(scratch), "-r", str(RATE), "-b", "16", "-c", "1", str(resampled)], check=True)
+    command = ["sox", "-G", "-D", str(scratch), "-r", str(RATE), "-b", "16", "-c", "1", str(resampled)]
+    subprocess.run(command, check=True)
     return _read(resampled)
 
 

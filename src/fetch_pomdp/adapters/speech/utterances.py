@@ -1,15 +1,13 @@
 """Cuts sound into utterances at the silences between them.
 
-Choice: a frame is speech when it is louder than the quietest moment of the last seconds, so that steady noise of any level
-counts as silence (webrtcvad takes noise at 20 dB SNR for speech throughout). Taking a noise for speech costs only time:
-the decoder then finds no words in it.
+Choice: a frame is speech when it is louder than the quietest moment of the last seconds, so that steady noise of any
+level counts as silence (webrtcvad takes noise at 20 dB SNR for speech throughout).
 """
 
 from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
