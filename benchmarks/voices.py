@@ -46,6 +46,12 @@ def record(
     return [recording for text in texts for voice in voices for recording in _said(text, voice, folder, snrs)]
 
 
+def read(path: Path) -> NDArray[np.int16]:
+    """Return the samples of a 16-bit mono WAV file."""
+    with wave.open(str(path)) as sound:
+        return np.frombuffer(sound.readframes(sound.getnframes()), np.int16)
+
+
 def _said(text: str, voice: str, folder: Path, snrs: Sequence[int | None]) -> Iterator[Recording]:
     name = f"{text.replace(' ', '-')}_{voice}"
     clean = folder / f"{name}_clean.wav"
@@ -54,7 +60,7 @@ def _said(text: str, voice: str, folder: Path, snrs: Sequence[int | None]) -> It
     for snr in snrs:
         path = clean if snr is None else folder / f"{name}_{snr}dB.wav"
         if not path.exists():
-            _write(path, _noisy(_read(clean), float(snr or 0), seed=zlib.crc32(path.name.encode())))
+            _write(path, _noisy(read(clean), float(snr or 0), seed=zlib.crc32(path.name.encode())))
         yield Recording(text, voice, snr, path)
 
 
@@ -70,7 +76,7 @@ def _speak(text: str, voice: str, scratch: Path) -> NDArray[np.int16]:
     # -G keeps resampling from clipping, -D leaves out sox's own random dither: the same file every time
     command = ["sox", "-G", "-D", str(scratch), "-r", str(RATE), "-b", "16", "-c", "1", str(resampled)]
     subprocess.run(command, check=True)
-    return _read(resampled)
+    return read(resampled)
 
 
 def _padded(samples: NDArray[np.int16]) -> NDArray[np.int16]:
@@ -84,11 +90,6 @@ def _noisy(samples: NDArray[np.int16], snr: float, seed: int) -> NDArray[np.int1
     noise = np.random.default_rng(seed).standard_normal(len(samples)) * loudness * 10 ** (-snr / 20)
     mixed = samples + noise
     return np.asarray(np.round(mixed * min(1.0, 32767 / np.abs(mixed).max())), np.int16)
-
-
-def _read(path: Path) -> NDArray[np.int16]:
-    with wave.open(str(path)) as sound:
-        return np.frombuffer(sound.readframes(sound.getnframes()), np.int16)
 
 
 def _write(path: Path, samples: NDArray[np.int16]) -> None:

@@ -8,29 +8,29 @@ other talk tends to come out as itself rather than as a request.
 from __future__ import annotations
 
 import math
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
-from fetch_pomdp.core.words import POSITIVE
+from fetch_pomdp.core.words import POSITIVE, tokenize
 
 START, END = "<s>", "</s>"
 UNSEEN = 0.15  # of a word's probability mass, what is left for words that no sentence below has after it
-COMMON_SHARE = 0.2  # of the unigram probability, what the common words have together
+COMMON_SHARE = 0.3  # of the unigram probability, what the common words have together
 LEAST_SHARE = 0.002  # of the unigram probability, what every word of our own has at least
 REQUESTS = (
     "hand me", "give me", "pass me", "bring me", "get me", "i want", "i need", "i would like", "can i have",
-    "may i have", "could i have", "can you hand me", "could you give me", "could you please pass me", "would you hand me",
-    "please hand me", "please give me", "please pass me", "can you get me", "pick up",
+    "may i have", "could i have", "can you hand me", "could you give me", "could you please pass me",
+    "would you hand me", "please hand me", "please give me", "please pass me", "can you get me", "pick up",
 )  # fmt: skip
 DETERMINERS = {"the": 3.0, "that": 1.0, "this": 1.0, "a": 1.0}  # and how often, relative to each other
 POINTERS = ("that one", "this one", "that", "this")
 PLACES = ("on the left", "on the right", "in the middle", "in front", "in the back", "behind", "over there", "next to")
 ANSWERS = (
-    *POSITIVE, "yes please", "yes that one", "no", "nope", "no not that one", "not that one", "no the other one",
+    *POSITIVE, "yes please", "yes that one", "nope", "no not that one", "not that one", "no the other one",
     "the other one", "other one",
 )  # fmt: skip
-COMMON = (  # and none that sounds like one of our own, as know
+COMMON = tokenize(  # and none that sounds like one of our own, as know
     "about after again all also always am an and another any are around as ask at away bad be because been before "
     "best better big book boy but buy by call came car chair child city clean close cold come day did dinner do does "
     "doing done door down drink each eat end even ever every fall family far father feel few find first five floor "
@@ -44,7 +44,7 @@ COMMON = (  # and none that sounds like one of our own, as know
     "three time today together tomorrow tonight town train try turn under until us use very wait walk wall was watch "
     "water way we weather week well went were what when where which while who why will window with woman word work "
     "world year yesterday your"
-).split()
+)
 
 Links = Mapping[str, Mapping[str, float]]  # how often the second word follows the first
 
@@ -67,13 +67,19 @@ def language_model(vocabulary: Iterable[str]) -> str:
     return "\n".join([*counts, "", "\\1-grams:", *unigrams, "", "\\2-grams:", *bigrams, "", "\\end\\", ""])
 
 
+def every_word(vocabulary: Iterable[str]) -> list[str]:
+    """Return all words of the language model: those that need a pronunciation."""
+    return [word for word in _unigrams(_links(tuple(dict.fromkeys(vocabulary)))) if word != END]
+
+
 def _unigrams(links: Links) -> dict[str, float]:
     """Return every word's own probability, of all but the start: nothing comes before it."""
-    counts: Counter[str] = Counter()
+    counts: defaultdict[str, float] = defaultdict(float)
     for followers in links.values():
-        counts.update(followers)
-    least = LEAST_SHARE * counts.total()
-    total = counts.total() + least * len(counts)
+        for follower, count in followers.items():
+            counts[follower] += count
+    least = LEAST_SHARE * sum(counts.values())
+    total = sum(counts.values()) + least * len(counts)
     others = [word for word in COMMON if word not in counts]
     own = {word: (1 - COMMON_SHARE) * (count + least) / total for word, count in counts.items()}
     return own | {word: COMMON_SHARE / len(others) for word in others}
@@ -81,7 +87,7 @@ def _unigrams(links: Links) -> dict[str, float]:
 
 def _links(vocabulary: Sequence[str]) -> Links:
     """Count what follows what in requests, descriptions and answers, each of them said about equally often."""
-    links: defaultdict[str, Counter[str]] = defaultdict(Counter)
+    links: defaultdict[str, defaultdict[str, float]] = defaultdict(lambda: defaultdict(float))
 
     def say(sentences: Iterable[str], times: float) -> None:
         every = list(sentences)
@@ -89,7 +95,8 @@ def _links(vocabulary: Sequence[str]) -> Links:
             for word, follower in pairwise(sentence.split()):
                 links[word][follower] += times / len(every)
 
-    say((f"{START} {answer} {END}" for answer in ANSWERS), 4.2)
+    say((f"{START} {answer} {END}" for answer in ANSWERS), 3.6)
+    say((f"{START} {answer} {END}" for answer in ("yes", "no")), 2.4)
     say((f"{START} {pointer} {END}" for pointer in POINTERS), 0.8)
     say((f"{START} {request} {pointer} {END}" for request in REQUESTS for pointer in POINTERS), 0.3)
     for determiner, times in DETERMINERS.items():

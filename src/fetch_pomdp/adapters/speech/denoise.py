@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 SIZE = 512  # samples of a spectrum, 32 ms at 16 kHz
 HOP = SIZE // 4
-QUIET = 6  # the noise is what the quietest sixth of the spectra has in common
+QUIET = 30  # spectra, 240 ms: the quietest are taken for noise alone; an utterance has 600 ms of silence around it
 INERTIA = 0.9  # of the signal-to-noise estimate from spectrum to spectrum: less of it, and the noise left over warbles
 LEAST = 0.1  # gain; what is cut further sounds like no room the decoder knows
 WINDOW = np.sqrt(np.hanning(SIZE + 1)[:-1])
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 
 
 def denoise(samples: Floats) -> Floats:
-    """Return the samples without the noise that its quietest sixth, so some silence, has. Any scale; same length."""
+    """Return the samples without the noise that is in their quietest moments. Any scale; same length."""
     if len(samples) < 4 * SIZE:  # too short to hold a silence to learn the noise from
         return samples
     padded = np.pad(samples, (SIZE, 2 * SIZE))
@@ -31,7 +31,7 @@ def denoise(samples: Floats) -> Floats:
     power = np.square(np.abs(spectra))
     sounding = slice(SIZE // HOP, -2 * SIZE // HOP)  # the padding is no part of the noise
     quietest = power[sounding][np.argsort(power[sounding].sum(axis=1))]
-    noise = quietest[: max(1, len(quietest) // QUIET)].mean(axis=0)
+    noise = quietest[:QUIET].mean(axis=0)
     cleaned = np.zeros(len(padded))
     for start, frame in zip(starts, np.fft.irfft(spectra * _gains(power / (noise + 1e-9))), strict=True):
         cleaned[start : start + SIZE] += WINDOW * frame / OVERLAP

@@ -8,13 +8,13 @@ import tempfile
 from collections import deque
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.adapters.speech.audio import Samples, Sound
-from fetch_pomdp.adapters.speech.bigram import COMMON, language_model
+from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
 from fetch_pomdp.adapters.speech.denoise import denoise
 from fetch_pomdp.adapters.speech.pronunciation import pronounce
 from fetch_pomdp.adapters.speech.utterances import Utterance, Utterances
@@ -22,13 +22,14 @@ from fetch_pomdp.core.ports import Word
 
 logger = logging.getLogger(__name__)
 
-Decoder = Any  # pocketsphinx has no types
+Decoder: TypeAlias = Any  # pocketsphinx has no types
+Segment: TypeAlias = Any
 
 FRAMES = 100.0  # decoder frames a second
 NOISE = -30.0  # dB under the utterance's mean power: the decoder was trained on rooms, and hears badly without one
 SEED = 0
 OTHER_TALK = 0.4  # share of common words above which an utterance is not meant for the robot, and only they are given
-FILLER = ("<", "[", "+")  # how silence and noises are spelt in the decoder's dictionary
+FILLER = ("<", "[")  # how silence and noises are spelt in the decoder's dictionary
 
 
 class SphinxRecognizer:
@@ -47,9 +48,8 @@ class SphinxRecognizer:
 
     def hear(self, until: float) -> list[Word]:
         """Listen until the stream's time `until` (s); see Recognizer. Raises AudioError for a stream that breaks."""
-        utterances = self._utterances
-        while not utterances.ended and (utterances.time < until or utterances.speaking):
-            if utterance := utterances.step():
+        while not self._utterances.ended and self._utterances.settled < until:
+            if utterance := self._utterances.step():
                 self._heard.extend(self._words(utterance))
         words = []
         while self._heard and self._heard[0].end <= until:
@@ -62,40 +62,51 @@ class SphinxRecognizer:
         decoder.process_raw(_prepared(utterance.samples).tobytes(), full_utt=True)
         decoder.end_utt()
         segments = [segment for segment in decoder.seg() or () if not segment.word.startswith(FILLER)]
-        words = [
-            Word(
-                re.sub(r"\(\d+\)$", "", segment.word),  # "the(2)" is another way to say it
-                utterance.start + segment.start_frame / FRAMES,
-                utterance.start + (segment.end_frame + 1) / FRAMES,
-                min(1.0, segment.prob),
-            )
-            for segment in segments
-        ]
+        words = [_word(segment, utterance.start) for segment in segments]
         foreign = [word for word in words if word.text in self._foreign]
         return foreign if len(foreign) > OTHER_TALK * len(words) else words
 
 
+def _word(segment: Segment, start: float) -> Word:
+    text = re.sub(r"\(\d+\)$", "", segment.word)  # "the(2)" is another way to say "the"
+    first, last = segment.start_frame, segment.end_frame + 1
+    return Word(text, start + first / FRAMES, start + last / FRAMES, min(1.0, segment.prob))
+
+
 def _decoder(vocabulary: Sequence[str]) -> Decoder:
     pocketsphinx = load("pocketsphinx", "speech")
-    decoder = pocketsphinx.Decoder(lm=None, loglevel="FATAL")
-    known = [word for word in vocabulary if _learn(word, decoder)]
+    dictionary = _dictionary(Path(pocketsphinx.get_model_path("en-us/cmudict-en-us.dict")))
+    known = [word for word in vocabulary if _learn(word, dictionary)]
     if unknown := sorted(set(vocabulary) - set(known)):
         logger.warning("no pronunciation for %s: these words will not be heard", ", ".join(unknown))
+    sounds = [
+        f"{word}({number}) {phones}" if number > 1 else f"{word} {phones}"
+        for word in every_word(known)
+        for number, phones in enumerate(dictionary[word], 1)
+    ]
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "scene.arpa"
-        path.write_text(language_model(known), encoding="ascii")
-        decoder.add_lm_file("scene", str(path))
-    decoder.activate_search("scene")
-    return decoder
+        language, words = Path(folder) / "scene.arpa", Path(folder) / "scene.dict"
+        language.write_text(language_model(known), encoding="ascii")
+        words.write_text("\n".join([*sounds, ""]), encoding="ascii")  # all of cmudict would take 0.7 s to load, not 0.1
+        return pocketsphinx.Decoder(lm=str(language), dict=str(words), loglevel="FATAL")
 
 
-def _learn(word: str, decoder: Decoder) -> bool:
-    """Make sure that the decoder knows how a word sounds; False if it is spelt with other letters than a to z."""
-    if decoder.lookup_word(word):
+def _dictionary(path: Path) -> dict[str, list[str]]:
+    """Read how words sound, in one or more ways each."""
+    dictionary: dict[str, list[str]] = {}
+    for line in path.read_text(encoding="utf-8").splitlines():
+        word, _, phones = line.partition(" ")
+        dictionary.setdefault(word.partition("(")[0], []).append(phones)
+    return dictionary
+
+
+def _learn(word: str, dictionary: dict[str, list[str]]) -> bool:
+    """Make sure that the dictionary has a word; False if it is spelt with other letters than a to z."""
+    if word in dictionary:
         return True
-    phones = pronounce(word, decoder.lookup_word)
+    phones = pronounce(word, lambda part: dictionary.get(part, [None])[0])
     if phones:
-        decoder.add_word(word, phones, update=False)
+        dictionary[word] = [phones]
         logger.info("%s is taken to sound like %s", word, phones)
     return phones is not None
 

@@ -1,6 +1,6 @@
 """PCM WAV files, read strictly.
 
-The standard library's wave does not notice a file that is cut short, and on Python 3.11 refuses the 24-bit ones sox makes.
+The standard library's wave does not notice that a file is cut short, and on Python 3.11 refuses sox's 24-bit ones.
 """
 
 from __future__ import annotations
