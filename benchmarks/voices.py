@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 RATE = 16_000  # Hz
-BEFORE, AFTER = 0.5, 1.0  # s of silence around a sentence
+BEFORE, AFTER = 0.4, 0.7  # s of silence around a sentence
 TOOLS = ("espeak-ng", "flite", "sox")
 
 ESPEAK = [(voice, speed) for speed in (130, 175) for voice in ("en-us", "en-gb", "en-us+f3", "en-us+m3", "en-us+f2")]

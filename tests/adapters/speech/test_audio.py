@@ -7,6 +7,7 @@ import struct
 import threading
 import time
 import wave
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,8 @@ from fetch_pomdp.adapters.speech.audio import RATE, Samples, Sound, open_microph
 from fetch_pomdp.errors import AudioError, MissingExtraError
 
 TONE = 440.0  # Hz
+
+Callback = Callable[[bytes, int, None, None], None]
 
 
 def tone(rate: int, seconds: float = 1.0) -> np.ndarray[Any, np.dtype[np.float64]]:
@@ -220,7 +223,7 @@ class FakeDevices:
     def __init__(self, blocks: int = 0, error: str = "") -> None:
         self.blocks, self.error, self.closed = blocks, error, False
 
-    def RawInputStream(self, rate: int, frames: int, *rest: Any, callback: Any) -> FakeDevices:  # noqa: N802
+    def RawInputStream(self, rate: int, frames: int, *rest: object, callback: Callback) -> FakeDevices:  # noqa: N802
         assert (rate, *rest) == (RATE, None, 1, "int16")
         self.frames, self.callback = frames, callback
         if self.error:

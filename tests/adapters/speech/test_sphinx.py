@@ -112,7 +112,7 @@ def test_a_word_without_a_pronunciation_is_warned_of_once(caplog: pytest.LogCapt
 @pytest.mark.skipif(not shutil.which("espeak-ng"), reason="espeak-ng is not installed: apt install espeak-ng")
 def test_a_voice_at_another_rate_is_understood(tmp_path: Path) -> None:
     path = tmp_path / "spoon.wav"
-    subprocess.run(["espeak-ng", "-s", "130", "-w", str(path), "hand me the silver spoon"], check=True)
+    subprocess.run(["espeak-ng", "-v", "en-us", "-s", "150", "-w", str(path), "hand me the silver spoon"], check=True)
     with wave.open(str(path)) as file:
         assert file.getframerate() == 22050
     assert texts(SphinxRecognizer(open_wav(path), VOCABULARY).hear(10.0))[-2:] == ["silver", "spoon"]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import queue
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any, BinaryIO, Protocol
 
@@ -59,7 +60,8 @@ class _Stream:
 def open_wav(path: str | Path) -> Sound:
     """Open a PCM WAV file of any rate, with 8, 16, 24 or 32 bits and any number of channels, which are averaged.
 
-    Raises AudioError for a file that is missing, empty, cut short or no such file.
+    Raises AudioError for a file that is missing, empty, cut short or not PCM WAV; MissingExtraError without soxr for a
+    rate other than 16 kHz.
     """
     layout = wav.read_layout(Path(path))
     return _Stream(wav.blocks(Path(path), layout), layout.rate)
@@ -107,9 +109,8 @@ def open_microphone(device: str | int | None = None) -> Sound:
 
 def _resampled(blocks: Iterator[Mono], rate: int) -> Iterator[Mono]:
     resampler = load("soxr", "speech").ResampleStream(rate, RATE, 1, dtype="float32")
-    for block in blocks:
-        yield resampler.resample_chunk(block)
-    yield resampler.resample_chunk(np.empty(0, np.float32), last=True)
+    end = np.empty(0, np.float32)
+    return (resampler.resample_chunk(block, last=block is end) for block in chain(blocks, [end]))
 
 
 def _raw_blocks(stream: BinaryIO, rate: int, name: str) -> Iterator[Mono]:
