@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import wave
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 RATE = 16_000  # Hz
-BEFORE, AFTER = 0.5, 1.0  # s of silence around a sentence
+BEFORE, AFTER = 0.4, 0.7  # s of silence around a sentence
 TOOLS = ("espeak-ng", "flite", "sox")
 
 ESPEAK = [(voice, speed) for speed in (130, 175) for voice in ("en-us", "en-gb", "en-us+f3", "en-us+m3", "en-us+f2")]
@@ -39,14 +39,20 @@ def missing_tools() -> list[str]:
 
 
 def record(
-    texts: list[str], folder: Path, voices: tuple[str, ...] = VOICES, snrs: tuple[int | None, ...] = SNRS
+    texts: Sequence[str], folder: Path, voices: Sequence[str] = VOICES, snrs: Sequence[int | None] = SNRS
 ) -> list[Recording]:
     """Make, or find in `folder`, every text by every voice at every SNR (dB)."""
     folder.mkdir(parents=True, exist_ok=True)
     return [recording for text in texts for voice in voices for recording in _said(text, voice, folder, snrs)]
 
 
-def _said(text: str, voice: str, folder: Path, snrs: tuple[int | None, ...]) -> Iterator[Recording]:
+def read(path: Path) -> NDArray[np.int16]:
+    """Return the samples of a 16-bit mono WAV file."""
+    with wave.open(str(path)) as sound:
+        return np.frombuffer(sound.readframes(sound.getnframes()), np.int16)
+
+
+def _said(text: str, voice: str, folder: Path, snrs: Sequence[int | None]) -> Iterator[Recording]:
     name = f"{text.replace(' ', '-')}_{voice}"
     clean = folder / f"{name}_clean.wav"
     if not clean.exists():
@@ -54,7 +60,7 @@ def _said(text: str, voice: str, folder: Path, snrs: tuple[int | None, ...]) -> 
     for snr in snrs:
         path = clean if snr is None else folder / f"{name}_{snr}dB.wav"
         if not path.exists():
-            _write(path, _noisy(_read(clean), float(snr or 0), seed=zlib.crc32(path.name.encode())))
+            _write(path, _noisy(read(clean), float(snr or 0), seed=zlib.crc32(path.name.encode())))
         yield Recording(text, voice, snr, path)
 
 
@@ -68,10 +74,9 @@ def _speak(text: str, voice: str, scratch: Path) -> NDArray[np.int16]:
     subprocess.run(command, check=True, capture_output=True)
     resampled = scratch.with_name("resampled.wav")
     # -G keeps resampling from clipping, -D leaves out sox's own random dither: the same file every time
-    subprocess.run(
-        ["sox", "-G", "-D", str(scratch), "-r", str(RATE), "-b", "16", "-c", "1", str(resampled)], check=True
-    )
-    return _read(resampled)
+    command = ["sox", "-G", "-D", str(scratch), "-r", str(RATE), "-b", "16", "-c", "1", str(resampled)]
+    subprocess.run(command, check=True)
+    return read(resampled)
 
 
 def _padded(samples: NDArray[np.int16]) -> NDArray[np.int16]:
@@ -85,11 +90,6 @@ def _noisy(samples: NDArray[np.int16], snr: float, seed: int) -> NDArray[np.int1
     noise = np.random.default_rng(seed).standard_normal(len(samples)) * loudness * 10 ** (-snr / 20)
     mixed = samples + noise
     return np.asarray(np.round(mixed * min(1.0, 32767 / np.abs(mixed).max())), np.int16)
-
-
-def _read(path: Path) -> NDArray[np.int16]:
-    with wave.open(str(path)) as sound:
-        return np.frombuffer(sound.readframes(sound.getnframes()), np.int16)
 
 
 def _write(path: Path, samples: NDArray[np.int16]) -> None:

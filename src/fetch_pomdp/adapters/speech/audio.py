@@ -6,7 +6,8 @@ Each is opened by a function that returns a Sound; what can be known to be wrong
 from __future__ import annotations
 
 import queue
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any, BinaryIO, Protocol
 
@@ -23,6 +24,8 @@ PATIENCE = 600.0  # s of microphone sound kept for a listener that is busy
 
 Samples = NDArray[np.int16]
 Mono = NDArray[np.float32]  # -1 to 1
+Device = Any  # sounddevice has no types
+Buffer = Any  # what cffi calls a buffer
 
 
 class Sound(Protocol):
@@ -57,7 +60,8 @@ class _Stream:
 def open_wav(path: str | Path) -> Sound:
     """Open a PCM WAV file of any rate, with 8, 16, 24 or 32 bits and any number of channels, which are averaged.
 
-    Raises AudioError for a file that is missing, empty, cut short or no such file.
+    Raises AudioError for a file that is missing, empty, cut short or not PCM WAV; MissingExtraError without soxr for a
+    rate other than 16 kHz.
     """
     layout = wav.read_layout(Path(path))
     return _Stream(wav.blocks(Path(path), layout), layout.rate)
@@ -87,7 +91,7 @@ def open_microphone(device: str | int | None = None) -> Sound:
     heard: queue.Queue[bytes] = queue.Queue(int(PATIENCE / BLOCK))
     overrun: list[bool] = []
 
-    def keep(block: Any, *_: object) -> None:
+    def keep(block: Buffer, *_: object) -> None:
         try:
             heard.put_nowait(bytes(block))
         except queue.Full:
@@ -105,9 +109,8 @@ def open_microphone(device: str | int | None = None) -> Sound:
 
 def _resampled(blocks: Iterator[Mono], rate: int) -> Iterator[Mono]:
     resampler = load("soxr", "speech").ResampleStream(rate, RATE, 1, dtype="float32")
-    for block in blocks:
-        yield resampler.resample_chunk(block)
-    yield resampler.resample_chunk(np.empty(0, np.float32), last=True)
+    end = np.empty(0, np.float32)
+    return (resampler.resample_chunk(block, last=block is end) for block in chain(blocks, [end]))
 
 
 def _raw_blocks(stream: BinaryIO, rate: int, name: str) -> Iterator[Mono]:
@@ -118,7 +121,7 @@ def _raw_blocks(stream: BinaryIO, rate: int, name: str) -> Iterator[Mono]:
     if len(data) < 2:
         raise AudioError("found no sound, expected 16-bit little-endian mono samples", source=name)
     while data:
-        yield np.frombuffer(data, "<i2", len(data) // 2).astype(np.float32) / 32768
+        yield np.frombuffer(data, "<i2", len(data) // 2).astype(np.float32) / np.float32(32768)
         data = _read(stream, size, name)
 
 
@@ -134,16 +137,15 @@ def _read(stream: BinaryIO, size: int, name: str) -> bytes:
     return b"".join(parts)
 
 
-def _microphone_blocks(microphone: Any, heard: queue.Queue[bytes], overrun: list[bool], name: str) -> Iterator[Mono]:
+def _microphone_blocks(microphone: Device, heard: queue.Queue[bytes], overrun: list[bool], name: str) -> Iterator[Mono]:
     try:
         while not overrun:
             try:
                 block = heard.get(timeout=5.0)
             except queue.Empty:
-                raise AudioError(
-                    "found no sound for 5 s, expected a microphone that is connected", source=name
-                ) from None
-            yield np.frombuffer(block, "<i2").astype(np.float32) / 32768
+                found = "found no sound for 5 s, expected a microphone that is connected"
+                raise AudioError(found, source=name) from None
+            yield np.frombuffer(block, "<i2").astype(np.float32) / np.float32(32768)
         raise AudioError(f"found {PATIENCE:.0f} s of sound nobody read, expected to be read", source=name)
     finally:
         microphone.close()

@@ -1,121 +1,113 @@
 """A small bigram language model of what people say to a fetching robot, as ARPA text.
 
-Choice: the paper does not say how speech was recognised beyond the words of the items. A bigram over requests, answers and
-the items' words is right more often than a grammar or an open model; common words that are none of these are in it too, so
-that "what time is it" is heard as itself and not bent into a request.
+Choice: the paper does not say how it recognised speech. A bigram over requests, answers and the items' words is right
+more often than a grammar or an open model of English. Common words that are none of these belong to it too, so that
+other talk tends to come out as itself rather than as a request.
 """
 
 from __future__ import annotations
 
 import math
-from collections import Counter, defaultdict
-from collections.abc import Iterable, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE, tokenize
+from fetch_pomdp.core.words import POSITIVE, tokenize
 
 START, END = "<s>", "</s>"
+UNSEEN = 0.15  # of a word's probability mass, what is left for words that no sentence below has after it
+COMMON_SHARE = 0.3  # of the unigram probability, what the common words have together
+LEAST_SHARE = 0.002  # of the unigram probability, what every word of our own has at least
 REQUESTS = (
-    "hand me", "give me", "pass me", "bring me", "get me", "i want", "i need", "i would like", "can i have", "may i have",
-    "could i have", "can you hand me", "could you give me", "could you please pass me", "would you hand me",
-    "please hand me", "please give me", "please pass me", "can you get me", "pick up",
+    "hand me", "give me", "pass me", "bring me", "get me", "i want", "i need", "i would like", "can i have",
+    "may i have", "could i have", "can you hand me", "could you give me", "could you please pass me",
+    "would you hand me", "please hand me", "please give me", "please pass me", "can you get me", "pick up",
 )  # fmt: skip
-DETERMINERS = ("the", "that", "this", "a")
-PLACES = ("on the left", "on the right", "in the middle", "in front", "in the back", "behind", "over there", "next to")
-ANSWERS = (*(POSITIVE), "yes that one", "yes please", "no", "nope", "no not that one", "not that one", "no the other one",
-           "the other one", "other one")  # fmt: skip
+DETERMINERS = {"the": 3.0, "that": 1.0, "this": 1.0, "a": 1.0}  # and how often, relative to each other
 POINTERS = ("that one", "this one", "that", "this")
-COMMON = tuple(
-    """about after again all also always am an and another any are around as ask at away back bad be because been before best
-    better big book boy but buy by call came car chair child city clean close cold come day did dinner do does doing done
-    door down drink each eat end even ever every eye fall family far father feel few find first five floor food for four
-    friend from game girl go going good got great had half happy hard has have he head hear help her here him his home hot
-    hour house how if inside into is it its job just keep kind know last late later leave let life light like line little
-    live long look lot love made make man many me mean meet might mind money month more morning most mother move much music
-    must my name near never new next night nine now number of off office old once one only open or our out outside own paper
-    part people person phone place play point put question read really road room run said same say school see seven she shop
-    should show side sit six sleep small so some something soon start stay still stop story street such sun table take talk
-    teacher tell ten than thank thanks their them then these they thing think those three time to today together tomorrow
-    tonight too town train try turn two under until us use very wait walk wall was watch water way we weather week well went
-    were what when where which while who why will window with woman word work world write year yesterday you your""".split()
+PLACES = ("on the left", "on the right", "in the middle", "in front", "in the back", "behind", "over there", "next to")
+ANSWERS = (
+    *POSITIVE, "yes please", "yes that one", "nope", "no not that one", "not that one", "no the other one",
+    "the other one", "other one",
+)  # fmt: skip
+COMMON = tokenize(  # and none that sounds like one of our own, as know
+    "about after again all also always am an and another any are around as ask at away bad be because been before "
+    "best better big book boy but buy by call came car chair child city clean close cold come day did dinner do does "
+    "doing done door down drink each eat end even ever every fall family far father feel few find first five floor "
+    "food for four friend from game girl go going good got great had half happy hard has he head hear help her here "
+    "him his home hot hour house how if inside into is it its job just keep kind last late later leave let life light "
+    "line little live long look lot love made make man many mean meet might mind money month more morning most mother "
+    "move much music must my name near never new night nine now number of off office old once only open or our out "
+    "outside own paper part people person phone place play point put question read really road room run said same say "
+    "school see seven she shop should show side sit six sleep small so some something soon start stay still stop "
+    "story street such sun table take talk teacher tell ten than thank thanks them then these they thing think those "
+    "three time today together tomorrow tonight town train try turn under until us use very wait walk wall was watch "
+    "water way we weather week well went were what when where which while who why will window with woman word work "
+    "world year yesterday your"
 )
 
+Links = Mapping[str, Mapping[str, float]]  # how often the second word follows the first
 
-def language_model(vocabulary: Iterable[str], common: Sequence[str] = COMMON) -> str:
-    """Return a bigram model over the items' words, requests, answers and common words, as ARPA text.
 
-    A history's words keep a share of its probability; the rest is spread over all other words as their own frequency is.
+def language_model(vocabulary: Iterable[str]) -> str:
+    """Return a bigram model over the items' words (`vocabulary`), requests, answers and common words, as ARPA text.
+
+    After each word its followers have 1 - UNSEEN of the probability; all others share the rest by their own frequency.
     """
     links = _links(tuple(dict.fromkeys(vocabulary)))
-    unigrams = _unigrams(links, common)
-    lines, backoffs = [], {}
-    for history, following in links.items():
-        total = sum(following.values()) * (1 + UNSEEN)
-        left = UNSEEN / (1 + UNSEEN)
-        backoffs[history] = left / (1 - sum(unigrams[word] for word in following))
-        lines += [f"{math.log10(count / total):.6f} {history} {word}" for word, count in following.items()]
-    singles = [f"{_log(p):.6f} {w} {_log(backoffs.get(w, 1.0)):.6f}" for w, p in unigrams.items()]
-    header = f"\\data\\\nngram 1={len(singles)}\nngram 2={len(lines)}\n"
-    return "\n".join([header, "\\1-grams:", *singles, "", "\\2-grams:", *lines, "", "\\end\\", ""])
+    alone = _unigrams(links)
+    bigrams, backoff = [], {}
+    for word, followers in links.items():
+        total = sum(followers.values()) / (1 - UNSEEN)
+        bigrams += [f"{math.log10(count / total):.6f} {word} {follower}" for follower, count in followers.items()]
+        backoff[word] = UNSEEN / (1 - sum(alone[follower] for follower in followers))
+    unigrams = [f"{math.log10(p):.6f} {word} {math.log10(backoff.get(word, 1.0)):.6f}" for word, p in alone.items()]
+    unigrams.append(f"-99 {START} {math.log10(backoff[START]):.6f}")
+    counts = ["\\data\\", f"ngram 1={len(unigrams)}", f"ngram 2={len(bigrams)}"]
+    return "\n".join([*counts, "", "\\1-grams:", *unigrams, "", "\\2-grams:", *bigrams, "", "\\end\\", ""])
 
 
-UNSEEN = 0.15
-COMMON_SHARE = 0.1
+def every_word(vocabulary: Iterable[str]) -> list[str]:
+    """Return all words of the language model: those that need a pronunciation."""
+    return [word for word in _unigrams(_links(tuple(dict.fromkeys(vocabulary)))) if word != END]
 
 
-def _log(p):
-    return math.log10(p) if p else -99.0
+def _unigrams(links: Links) -> dict[str, float]:
+    """Return every word's own probability, of all but the start: nothing comes before it."""
+    counts: defaultdict[str, float] = defaultdict(float)
+    for followers in links.values():
+        for follower, count in followers.items():
+            counts[follower] += count
+    least = LEAST_SHARE * sum(counts.values())
+    total = sum(counts.values()) + least * len(counts)
+    others = [word for word in COMMON if word not in counts]
+    own = {word: (1 - COMMON_SHARE) * (count + least) / total for word, count in counts.items()}
+    return own | {word: COMMON_SHARE / len(others) for word in others}
 
 
-def _unigrams(links, common):
-    counts: Counter[str] = Counter()
-    for following in links.values():
-        counts.update(following)
-    own = sum(counts.values())
-    extra = [w for w in common if w not in counts]
-    for w in counts:
-        counts[w] += 0.002 * own
-    own = sum(counts.values())
-    p = {w: c / own * ((1 - COMMON_SHARE) if extra else 1) for w, c in counts.items()}
-    p |= {w: COMMON_SHARE / len(extra) for w in extra}
-    p[START] = 0.0
-    return p
+def _links(vocabulary: Sequence[str]) -> Links:
+    """Count what follows what in requests, descriptions and answers, each of them said about equally often."""
+    links: defaultdict[str, defaultdict[str, float]] = defaultdict(lambda: defaultdict(float))
 
+    def say(sentences: Iterable[str], times: float) -> None:
+        every = list(sentences)
+        for sentence in every:
+            for word, follower in pairwise(sentence.split()):
+                links[word][follower] += times / len(every)
 
-def _links(vocabulary):
-    links: defaultdict[str, Counter[str]] = defaultdict(Counter)
-
-    def add(sentence: str, weight: float) -> None:
-        words = sentence.split()
-        for h, w in pairwise(words):
-            links[h][w] += weight
-
-    n = len(vocabulary)
-    for d in DETERMINERS:
-        for r in REQUESTS:
-            add(f"{START} {r} {d}", 1 / len(REQUESTS) / (1 if d == "the" else 3))
-        add(f"{START} {d}", 0.5)
-        add(f"{d} one {END}", 0.3)
-        for w in vocabulary:
-            add(f"{d} {w}", 1 / n)
-    for r in REQUESTS:
-        for p in POINTERS:
-            add(f"{START} {r} {p} {END}", 0.3 / len(REQUESTS) / len(POINTERS))
-    for w in vocabulary:
-        for v in vocabulary:
-            if v != w:
-                add(f"{w} {v}", 0.5 / n / max(1, n - 1))
-        add(f"{START} {w}", 0.3 / n)
-        add(f"{w} {END}", 1 / n)
-        add(f"{w} please {END}", 0.1 / n)
-        add(f"{w} one {END}", 0.1 / n)
-        for p in PLACES:
-            add(f"{w} {p} {END}", 0.2 / n / len(PLACES))
-        add(f"next to the {w} {END}", 0.2 / n / len(PLACES))
-    for a in ANSWERS:
-        add(f"{START} {a} {END}", 0.3)
-    for a in POSITIVE + ("no", "nope"):
-        add(f"{START} {a} the", 0.02)
-    for p in POINTERS:
-        add(f"{START} {p} {END}", 0.2)
+    say((f"{START} {answer} {END}" for answer in ANSWERS), 3.6)
+    say((f"{START} {answer} {END}" for answer in ("yes", "no")), 2.4)
+    say((f"{START} {pointer} {END}" for pointer in POINTERS), 0.8)
+    say((f"{START} {request} {pointer} {END}" for request in REQUESTS for pointer in POINTERS), 0.3)
+    for determiner, times in DETERMINERS.items():
+        say((f"{START} {request} {determiner}" for request in REQUESTS), times / 3)
+        say([f"{START} {determiner}", f"{determiner} one {END}"], 0.8)
+        say((f"{determiner} {word}" for word in vocabulary), 1.0)
+    say((f"{START} {answer} the" for answer in (*POSITIVE, "no", "nope")), 0.12)
+    say((f"{START} {word}" for word in vocabulary), 0.3)
+    say((f"{word} {END}" for word in vocabulary), 1.0)
+    say((f"{word} {other}" for word in vocabulary for other in vocabulary if word != other), 0.5)
+    say((f"{word} {tail} {END}" for word in vocabulary for tail in ("please", "one")), 0.2)
+    say((f"{word} {place} {END}" for word in vocabulary for place in PLACES), 0.2)
+    say((f"next to the {word} {END}" for word in vocabulary), 0.03)
     return links

@@ -2,75 +2,119 @@
 
 from __future__ import annotations
 
-import os
+import logging
 import re
 import tempfile
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.adapters.speech.audio import Samples, Sound
-from fetch_pomdp.adapters.speech.bigram import language_model
+from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
+from fetch_pomdp.adapters.speech.denoise import denoise
+from fetch_pomdp.adapters.speech.pronunciation import pronounce
 from fetch_pomdp.adapters.speech.utterances import Utterance, Utterances
 from fetch_pomdp.core.ports import Word
+
+logger = logging.getLogger(__name__)
+
+Decoder: TypeAlias = Any  # pocketsphinx has no types
+Segment: TypeAlias = Any
 
 FRAMES = 100.0  # decoder frames a second
 NOISE = -30.0  # dB under the utterance's mean power: the decoder was trained on rooms, and hears badly without one
 SEED = 0
-FILLER = ("<", "[", "+")  # how silence and noises are spelt in the decoder's dictionary
+OTHER_TALK = 0.4  # share of common words above which an utterance is not meant for the robot, and only they are given
+FILLER = ("<", "[")  # how silence and noises are spelt in the decoder's dictionary
 
 
 class SphinxRecognizer:
     """Ears over a Sound. Implements Recognizer.
 
-    A word is given when its utterance has ended, so `hear` may listen on past its time while someone is speaking (11 s at
-    the most); words that end later than that time are kept for the next call.
+    A word is given when its utterance has ended, so `hear` may listen on past its time while someone is speaking, up to
+    11 s; words that end later than that time are kept for the next call.
     Raises MissingExtraError without pocketsphinx.
     """
 
-    def __init__(self, sound: Sound, vocabulary: Iterable[str]) -> None:
+    def __init__(self, sound: Sound, vocabulary: Sequence[str]) -> None:
         self._utterances = Utterances(sound)
         self._decoder = _decoder(vocabulary)
+        self._foreign = frozenset(COMMON).difference(vocabulary)
         self._heard: deque[Word] = deque()
 
     def hear(self, until: float) -> list[Word]:
         """Listen until the stream's time `until` (s); see Recognizer. Raises AudioError for a stream that breaks."""
-        utterances = self._utterances
-        while not utterances.ended and (utterances.time < until or utterances.speaking):
-            if utterance := utterances.step():
+        while not self._utterances.ended and self._utterances.settled < until:
+            if utterance := self._utterances.step():
                 self._heard.extend(self._words(utterance))
         words = []
         while self._heard and self._heard[0].end <= until:
             words.append(self._heard.popleft())
         return words
 
-    def _words(self, utterance: Utterance) -> Iterator[Word]:
+    def _words(self, utterance: Utterance) -> list[Word]:
         decoder = self._decoder
         decoder.start_utt()
-        decoder.process_raw(_roomy(utterance.samples).tobytes(), full_utt=True)
+        decoder.process_raw(_prepared(utterance.samples).tobytes(), full_utt=True)
         decoder.end_utt()
-        for segment in decoder.seg() or ():
-            if not segment.word.startswith(FILLER):
-                start = utterance.start + segment.start_frame / FRAMES
-                end = utterance.start + (segment.end_frame + 1) / FRAMES
-                yield Word(re.sub(r"\(\d+\)$", "", segment.word), start, end, min(1.0, segment.prob))
+        segments = [segment for segment in decoder.seg() or () if not segment.word.startswith(FILLER)]
+        words = [_word(segment, utterance.start) for segment in segments]
+        foreign = [word for word in words if word.text in self._foreign]
+        return foreign if len(foreign) > OTHER_TALK * len(words) else words
 
 
-def _decoder(vocabulary: Iterable[str]) -> Any:
+def _word(segment: Segment, start: float) -> Word:
+    text = re.sub(r"\(\d+\)$", "", segment.word)  # "the(2)" is another way to say "the"
+    first, last = segment.start_frame, segment.end_frame + 1
+    return Word(text, start + first / FRAMES, start + last / FRAMES, min(1.0, segment.prob))
+
+
+def _decoder(vocabulary: Sequence[str]) -> Decoder:
     pocketsphinx = load("pocketsphinx", "speech")
+    dictionary = _dictionary(Path(pocketsphinx.get_model_path("en-us/cmudict-en-us.dict")))
+    known = [word for word in vocabulary if _learn(word, dictionary)]
+    if unknown := sorted(set(vocabulary) - set(known)):
+        logger.warning("no pronunciation for %s: these words will not be heard", ", ".join(unknown))
+    sounds = [
+        f"{word}({number}) {phones}" if number > 1 else f"{word} {phones}"
+        for word in every_word(known)
+        for number, phones in enumerate(dictionary[word], 1)
+    ]
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "scene.arpa"
-        path.write_text(language_model(vocabulary))
-        return pocketsphinx.Decoder(lm=str(path), loglevel="FATAL", logfn=os.devnull)
+        language, words = Path(folder) / "scene.arpa", Path(folder) / "scene.dict"
+        language.write_text(language_model(known), encoding="ascii")
+        words.write_text("\n".join([*sounds, ""]), encoding="ascii")  # all of cmudict would take 0.7 s to load, not 0.1
+        return pocketsphinx.Decoder(lm=str(language), dict=str(words), loglevel="FATAL")
 
 
-def _roomy(samples: Samples) -> Samples:
-    """Add white noise, the same every time: digital silence ruins decoding, and a little noise helps clean speech."""
+def _dictionary(path: Path) -> dict[str, list[str]]:
+    """Read how words sound, in one or more ways each."""
+    dictionary: dict[str, list[str]] = {}
+    for line in path.read_text(encoding="utf-8").splitlines():
+        word, _, phones = line.partition(" ")
+        dictionary.setdefault(word.partition("(")[0], []).append(phones)
+    return dictionary
+
+
+def _learn(word: str, dictionary: dict[str, list[str]]) -> bool:
+    """Make sure that the dictionary has a word; False if it is spelt with other letters than a to z."""
+    if word in dictionary:
+        return True
+    phones = pronounce(word, lambda part: dictionary.get(part, [None])[0])
+    if phones:
+        dictionary[word] = [phones]
+        logger.info("%s is taken to sound like %s", word, phones)
+    return phones is not None
+
+
+def _prepared(samples: Samples) -> Samples:
+    """Take noise out and put a little back, the same every time: in digital silence the decoder hears nonsense."""
+    cleaned = denoise(samples.astype(float))
+    loudness = np.sqrt(np.mean(np.square(cleaned)))
     noise = np.random.default_rng(SEED).standard_normal(len(samples))
-    loudness = np.sqrt(np.mean(np.square(samples, dtype=float)))
-    mixed = samples + noise * max(1.0, loudness * 10 ** (NOISE / 20))
+    mixed = cleaned + noise * max(1.0, loudness * 10 ** (NOISE / 20))
     return np.asarray(np.clip(np.round(mixed), -32768, 32767), np.int16)

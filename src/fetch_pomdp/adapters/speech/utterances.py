@@ -1,15 +1,13 @@
 """Cuts sound into utterances at the silences between them.
 
-Choice: a frame is speech when it is louder than the quietest moment of the last seconds, so that steady noise of any level
-counts as silence (webrtcvad takes noise at 20 dB SNR for speech throughout). Taking a noise for speech costs only time:
-the decoder then finds no words in it.
+Choice: a frame is speech when it is louder than the quietest moment of the last seconds, so that steady noise of any
+level counts as silence (webrtcvad takes noise at 20 dB SNR for speech throughout).
 """
 
 from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,29 +43,29 @@ class Utterances:
         self._powers: deque[float] = deque(maxlen=SMOOTH)
         self._levels: deque[float] = deque(maxlen=MEMORY)  # dB
         self._quiet = 0  # frames since speech
-        self.speaking = False  # whether someone is in mid-utterance
+        self._speaking = False  # whether someone is in mid-utterance
         self.ended = False
 
     @property
-    def time(self) -> float:
-        """How much of the stream (s) has been read."""
-        return self._count * FRAME / RATE
+    def settled(self) -> float:
+        """Up to when (s) all that was said has been given: what was read, but for an utterance that goes on."""
+        return (self._count - (len(self._kept) if self._speaking else 0)) * FRAME / RATE
 
     def step(self) -> Utterance | None:
         """Read 10 ms; return an utterance if one ended with them. Raises AudioError for a stream that breaks."""
         frame = self._sound.read(FRAME)
         if len(frame) < FRAME:
             self.ended = True
-            return self._give(len(self._kept)) if self.speaking else None
+            return self._give(len(self._kept)) if self._speaking else None
         self._kept.append(frame)
         self._count += 1
         above = self._above_floor(frame)
-        self.speaking = self.speaking or above > ONSET
+        self._speaking = self._speaking or above > ONSET
         self._quiet = 0 if above > OFFSET else self._quiet + 1
-        if not self.speaking:
+        if not self._speaking:
             del self._kept[:-PADDING]
         elif self._quiet >= PAUSE:
-            self.speaking = False
+            self._speaking = False
             return self._give(len(self._kept) - PAUSE + PADDING)
         elif len(self._kept) >= LONGEST:
             return self._give(len(self._kept) - MEMORY + int(np.argmin(self._levels)) - SMOOTH // 2)

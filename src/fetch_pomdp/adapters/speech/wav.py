@@ -1,4 +1,7 @@
-"""PCM WAV files, read strictly. The standard library's wave takes a file that is cut short, and refuses 24-bit ones by sox."""
+"""PCM WAV files, read strictly.
+
+The standard library's wave does not notice that a file is cut short, and on Python 3.11 refuses sox's 24-bit ones.
+"""
 
 from __future__ import annotations
 
@@ -15,14 +18,7 @@ from fetch_pomdp.errors import AudioError
 
 BLOCK = 1 << 14  # frames read at a time
 PCM, EXTENSIBLE = 0x0001, 0xFFFE
-OTHER_FORMATS = {
-    0x0002: "ADPCM",
-    0x0003: "floating point",
-    0x0006: "A-law",
-    0x0007: "mu-law",
-    0x0011: "ADPCM",
-    0x0055: "MP3",
-}
+OTHERS = {0x0002: "ADPCM", 0x0003: "floating point", 0x0006: "A-law", 0x0007: "mu-law", 0x0011: "ADPCM", 0x0055: "MP3"}
 EXPECTED = "expected PCM of 8, 16, 24 or 32 bits"
 
 
@@ -59,18 +55,19 @@ def blocks(path: Path, layout: Layout) -> Iterator[NDArray[np.float32]]:
             data = file.read(count * layout.channels * layout.width)
             if len(data) < count * layout.channels * layout.width:
                 raise AudioError("found fewer samples than when it was opened, expected it unchanged", source=str(path))
-            yield _numbers(data, layout.width).reshape(count, layout.channels).mean(axis=1, dtype=np.float32)
+            frames = _numbers(data, layout.width).reshape(count, layout.channels)
+            yield np.asarray(frames.mean(axis=1), np.float32)
             left -= count
 
 
 def _numbers(data: bytes, width: int) -> NDArray[np.float32]:
     if width == 1:  # the one width without a sign
-        return (np.frombuffer(data, np.uint8).astype(np.float32) - 128) / 128
+        return (np.frombuffer(data, np.uint8).astype(np.float32) - 128) / np.float32(128)
     if width == 3:
         wide = np.zeros((len(data) // 3, 4), np.uint8)
         wide[:, 1:] = np.frombuffer(data, np.uint8).reshape(-1, 3)
         data, width = wide.tobytes(), 4
-    return np.frombuffer(data, f"<i{width}").astype(np.float32) / np.float32(2.0 ** (8 * width - 1))
+    return np.asarray(np.frombuffer(data, f"<i{width}") / 2.0 ** (8 * width - 1), np.float32)
 
 
 def _layout(file: BinaryIO) -> Layout:
@@ -90,7 +87,7 @@ def _layout(file: BinaryIO) -> Layout:
     offset, length = chunks[b"data"]
     if offset + length > size:
         raise AudioError(
-            f"found {size - offset} bytes of samples, expected {length} as the header says: it is cut short"
+            f"found {size - offset} bytes of samples, expected {length}, as the header says: it is cut short"
         )
     frames = length // (channels * width)
     if not frames:
@@ -119,7 +116,7 @@ def _format(file: BinaryIO, offset: int, length: int) -> tuple[int, int, int]:
     if tag == EXTENSIBLE and len(data) >= 26:
         (tag,) = struct.unpack("<H", data[24:26])
     if tag != PCM:
-        raise AudioError(f"found {OTHER_FORMATS.get(tag, f'format {tag:#06x}')}, {EXPECTED}")
+        raise AudioError(f"found {OTHERS.get(tag, f'format {tag:#06x}')}, {EXPECTED}")
     if not channels or not 1000 <= rate <= 1_000_000:
         raise AudioError(f"found {channels} channels at {rate} Hz, expected 1 or more at 1000 to 1000000 Hz")
     if bits not in (8, 16, 24, 32) or align != channels * bits // 8:
