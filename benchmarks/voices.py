@@ -56,7 +56,7 @@ def _said(text: str, voice: str, folder: Path, snrs: Sequence[int | None]) -> It
     name = f"{text.replace(' ', '-')}_{voice}"
     clean = folder / f"{name}_clean.wav"
     if not clean.exists():
-        _write(clean, _padded(_speak(text, voice, folder / "voice.wav")))
+        _write(clean, _padded(speak(text, voice, folder / "voice.wav")))
     for snr in snrs:
         path = clean if snr is None else folder / f"{name}_{snr}dB.wav"
         if not path.exists():
@@ -64,7 +64,7 @@ def _said(text: str, voice: str, folder: Path, snrs: Sequence[int | None]) -> It
         yield Recording(text, voice, snr, path)
 
 
-def _speak(text: str, voice: str, scratch: Path) -> NDArray[np.int16]:
+def speak(text: str, voice: str, scratch: Path) -> NDArray[np.int16]:
     engine, name = voice.split("-", 1)
     if engine == "flite":
         command = ["flite", "-voice", name, "-t", text, "-o", str(scratch)]

@@ -1,6 +1,6 @@
 """Copy every "Choice:" of the source into docs/model.md, between its markers.
 
-    python docs/make_choices.py
+python docs/make_choices.py
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Measure the table of returns in README.md and docs/planners.md, between its markers.
 
-    python docs/make_numbers.py
+python docs/make_numbers.py
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ EPISODES = 20_000
 PLANNERS: dict[str, Planner] = {
     "`ExactAnswers()`, the default": ExactAnswers(),
     "`SparseSampling(2, 10)`, the paper's": SparseSampling(2, 10),
-    "`ExactAnswers(2, 10, leaf=\"pick\")`": ExactAnswers(2, 10, leaf="pick"),
+    '`ExactAnswers(2, 10, leaf="pick")`': ExactAnswers(2, 10, leaf="pick"),
     "`AlwaysAsk()`, paradigm two": AlwaysAsk(),
     "`NeverAsk()`, paradigm one": NeverAsk(),
 }

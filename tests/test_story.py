@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from voices import RATE, VOICES, _speak as speak
+from voices import RATE, VOICES, speak
 
 from fetch_pomdp import Agent, Item, Outcome, Pick, interact
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
@@ -30,7 +30,9 @@ class Person:
     """A voice in a noisy room (a Sound), and hands that take what they are given (a Robot)."""
 
     def __init__(self, voice: str, folder: Path) -> None:
-        self._clips = {text: speak(text, voice, folder / "voice.wav") for text in ("hand me the green marker", "no", "yes")}
+        self._clips = {
+            text: speak(text, voice, folder / "voice.wav") for text in ("hand me the green marker", "no", "yes")
+        }
         loudness = np.sqrt(np.mean(self._clips["hand me the green marker"].astype(float) ** 2))
         self._noise = loudness * 10 ** (-SNR / 20)
         self._rng = np.random.default_rng(0)
@@ -91,5 +93,7 @@ def test_the_robot_understands_no_from_most_voices(tmp_path: Path, capsys: pytes
     understood = [voice for voice in VOICES if story(voice, tmp_path)]
     with capsys.disabled():
         lost = ", ".join(voice for voice in VOICES if voice not in understood)
-        print(f"\nFigure 1 at {SNR:.0f} dB: {len(understood)} of {len(VOICES)} voices understood; not: {lost or 'none'}")
+        print(
+            f"\nFigure 1 at {SNR:.0f} dB: {len(understood)} of {len(VOICES)} voices understood; not: {lost or 'none'}"
+        )
     assert len(understood) >= LEAST
