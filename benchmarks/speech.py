@@ -21,12 +21,12 @@ from io import BytesIO
 from pathlib import Path
 
 import pocketsphinx
-from voices import RATE, SNRS, VOICES, Recording, missing_tools, read, record
 
 from fetch_pomdp.adapters.speech.audio import open_raw, open_wav
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.words import NEGATIVE, POSITIVE
+from voices import RATE, SNRS, VOICES, Recording, missing_tools, read, record
 
 IN_SCENE = (
     "hand me the green marker", "the spoon", "could you give me the black bowl", "i want the silver spoon",

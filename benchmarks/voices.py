@@ -65,6 +65,7 @@ def _said(text: str, voice: str, folder: Path, snrs: Sequence[int | None]) -> It
 
 
 def speak(text: str, voice: str, scratch: Path) -> NDArray[np.int16]:
+    """Return a text as a voice says it, 16 kHz; `scratch` is overwritten."""
     engine, name = voice.split("-", 1)
     if engine == "flite":
         command = ["flite", "-voice", name, "-t", text, "-o", str(scratch)]

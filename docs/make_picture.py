@@ -44,8 +44,7 @@ PAGE = """<svg class="rich-terminal" viewBox="0 0 {width} {height}" xmlns="http:
 def main() -> None:
     """Play the recording of the demo and draw what a terminal shows."""
     agent = Agent("ambiguous")
-    words = {word for item in agent.scene.items for word in item.vocabulary}
-    ears = SphinxRecognizer(open_wav(ROOT / "examples" / "marker.wav"), words)
+    ears = SphinxRecognizer(open_wav(ROOT / "examples" / "marker.wav"), agent.scene.words)
     eyes = RecordedSkeleton.open(ROOT / "examples" / "marker.jsonl")
     console = Console(record=True, width=92, file=io.StringIO(), force_terminal=True, highlight=False)
     said: list[str] = []

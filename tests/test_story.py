@@ -1,7 +1,7 @@
 """Figure 1 of the paper with the real parts: synthesis, recognition, belief, planner, over many voices in noise.
 
-The person says "hand me the green marker", says "no" to the first marker the robot asks about, whichever it is, and "yes" to
-the other; the robot understands when it hands over the other one. Nothing but the person's side is scripted.
+The person says "hand me the green marker", says "no" to the first marker the robot asks about, whichever it is, and
+"yes" to the other; the robot understands when it hands over the other one. Nothing but the person is scripted.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from voices import RATE, VOICES, speak
 
 from fetch_pomdp import Agent, Item, Outcome, Pick, interact
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
 from fetch_pomdp.core.events import Acted
+from voices import RATE, VOICES, speak
 
 SNR = 20.0  # dB
 ASKING = 1.8  # s, after which the robot has asked
@@ -56,7 +56,7 @@ class Person:
             if first < last:
                 sound[first - self._time : last - self._time] += clip[first - start : last - start]
         self._time += count
-        return np.clip(sound, -32768, 32767).astype(np.int16)
+        return np.asarray(np.clip(sound, -32768, 32767), np.int16)
 
     def point(self, item: Item) -> Outcome:
         self.asked.append(item.id)
@@ -75,7 +75,7 @@ class Person:
 
 def story(voice: str, folder: Path) -> bool:
     agent, person = Agent("ambiguous"), Person(voice, folder)
-    ears = SphinxRecognizer(person, {word for item in agent.scene.items for word in item.vocabulary})
+    ears = SphinxRecognizer(person, agent.scene.words)
     picked = [
         agent.scene.items[event.action.item].id
         for event in interact(agent, person, ears, None)

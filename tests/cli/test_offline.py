@@ -103,7 +103,7 @@ def test_simulate_prints_one_line_of_json(run: Run) -> None:
     assert run(*arguments)[1] == out
 
 
-BAD_EVENTS = {
+BAD_EVENTS: dict[str, tuple[int, list[object]]] = {
     "broken JSON": (1, ['{"scene": "ambiguous"']),
     "not an object": (1, ["[1]"]),
     "no scene": (1, ["{}"]),

@@ -114,7 +114,7 @@ def _ears(scene: Scene, audio: str | None, rate: int) -> Recognizer | None:
         sound = open_raw(sys.stdin.buffer, rate, "standard input")
     else:
         sound = open_wav(audio)
-    return SphinxRecognizer(sound, {word for item in scene.items for word in item.vocabulary})
+    return SphinxRecognizer(sound, scene.words)
 
 
 def _recorded(events: Iterator[Event], record: EventLog | None) -> Iterator[Event]:

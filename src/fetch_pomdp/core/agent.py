@@ -5,13 +5,14 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
+from typing import overload
 
 import numpy as np
 import numpy.typing as npt
 
 from fetch_pomdp.checks import Point3, shown
 from fetch_pomdp.core import language
-from fetch_pomdp.core.action import Action
+from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Event, Observed
@@ -103,9 +104,8 @@ class Agent:
 
     def did(self, action: Action) -> None:
         """Go on from an action that the robot did: a question asked is i_r from now on."""
-        item = getattr(action, "item", 0)
-        if not 0 <= item < self.problem.n_items:
-            raise ActionError(f"found item {item}, expected an index below {self.problem.n_items}", field="item")
+        if not isinstance(action, Wait) and not 0 <= action.item < self.problem.n_items:
+            raise ActionError(f"found {action.item}, expected an index below {self.problem.n_items}", field="item")
         self.asked = asked_after(action, self.asked)
         self._steps += 1
 
@@ -116,7 +116,11 @@ class Agent:
         elif event.done:
             self.did(event.action)
 
+    @overload
+    def item(self, action: Point | Pick) -> Item: ...
+    @overload
+    def item(self, action: Wait) -> None: ...
+
     def item(self, action: Action) -> Item | None:
         """Return the item that an action is about; a wait is about none."""
-        index = getattr(action, "item", None)
-        return None if index is None else self.scene.items[index]
+        return None if isinstance(action, Wait) else self.scene.items[action.item]

@@ -59,7 +59,7 @@ class Problem:
         if model.gesture_likelihood == "exact" and len(items) > LARGEST_EXACT:
             found = f"found 'exact' with {len(items)} items, expected at most {LARGEST_EXACT}, or 'eq7'"
             raise ModelError(found, field="gesture_likelihood")
-        words = tuple(sorted({word for item in items for word in item.vocabulary}))
+        words = self.scene.words
         positions = np.array([item.position for item in items], dtype=np.float64)
         object.__setattr__(self, "words", words)
         object.__setattr__(self, "word_index", {word: index for index, word in enumerate(words)})

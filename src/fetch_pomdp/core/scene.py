@@ -71,6 +71,11 @@ class Scene:
                 raise SceneError(found, field=f"items[{index}].position")
             seen[item.id] = index
 
+    @property
+    def words(self) -> tuple[str, ...]:
+        """All words of all items, sorted: the "words" of Eq. 5."""
+        return tuple(sorted({word for item in self.items for word in item.vocabulary}))
+
     def index(self, id: str, field: str = "item") -> int:
         """Return the index of the item with this id. Raises SceneError, with the known ids, if there is none."""
         for index, item in enumerate(self.items):
