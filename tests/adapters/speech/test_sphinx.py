@@ -15,6 +15,8 @@ from fetch_pomdp.adapters.speech.audio import RATE, open_raw, open_wav
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
 from fetch_pomdp.core.ports import Recognizer, Word
 
+pytest.importorskip("pocketsphinx")
+
 DATA = Path(__file__).with_name("data")
 VOCABULARY = ["bowl", "black", "plastic", "marker", "green", "expo", "pen", "spoon", "silver", "metal"]
 

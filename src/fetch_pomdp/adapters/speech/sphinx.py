@@ -35,8 +35,8 @@ FILLER = ("<", "[")  # how silence and noises are spelt in the decoder's diction
 class SphinxRecognizer:
     """Ears over a Sound. Implements Recognizer.
 
-    A word is given when its utterance has ended, so `hear` may listen on past its time while someone is speaking, up to
-    11 s; words that end later than that time are kept for the next call.
+    A word is given when its utterance has ended, so `hear` may listen on past its time while someone is speaking, by up
+    to 10 s; words that end later than that time are kept for the next call.
     Raises MissingExtraError without pocketsphinx.
     """
 
