@@ -20,6 +20,8 @@ from hypothesis import strategies as st
 from fetch_pomdp.adapters.speech.audio import RATE, Samples, Sound, open_microphone, open_raw, open_wav
 from fetch_pomdp.errors import AudioError, MissingExtraError
 
+pytest.importorskip("soxr")
+
 TONE = 440.0  # Hz
 
 Callback = Callable[[bytes, int, None, None], None]

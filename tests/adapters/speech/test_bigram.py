@@ -2,12 +2,13 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fetch_pomdp.adapters.speech.bigram import COMMON, language_model
+from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
 from fetch_pomdp.core.words import NEGATIVE, POSITIVE
 
 WORDS = ["marker", "green", "spoon", "the", "weather"]  # with a determiner and a common word, as a scene may have them
@@ -33,8 +34,9 @@ class Arpa:
 
 
 @pytest.mark.parametrize("vocabulary", [WORDS, ["pen"], [], ["pen", "pen"]])
-def test_probabilities_sum_to_one_after_every_word(vocabulary: list[str]) -> None:
-    model = Arpa(language_model(vocabulary))
+@pytest.mark.parametrize("common", [COMMON, ["weather"], []])
+def test_probabilities_sum_to_one_after_every_word(vocabulary: list[str], common: Sequence[str]) -> None:
+    model = Arpa(language_model(vocabulary, common))
     words = [word for word in model.alone if word != "<s>"]
     for history in model.alone:
         if history != "</s>":
@@ -45,7 +47,8 @@ def test_probabilities_sum_to_one_after_every_word(vocabulary: list[str]) -> Non
 @given(st.lists(st.from_regex("[a-z]{2,8}", fullmatch=True), max_size=12))
 def test_any_vocabulary_gives_a_distribution(vocabulary: list[str]) -> None:
     model = Arpa(language_model(vocabulary))
-    assert set(vocabulary) | {*POSITIVE, *NEGATIVE, *COMMON} <= set(model.alone)
+    assert {*vocabulary, *POSITIVE, *NEGATIVE, *COMMON} <= set(model.alone)
+    assert set(every_word(vocabulary)) == set(model.alone) - {"<s>", "</s>"}
     for history in ("<s>", "the", *vocabulary):
         total = math.fsum(model.probability(word, history) for word in model.alone if word != "<s>")
         assert total == pytest.approx(1, abs=2e-4)

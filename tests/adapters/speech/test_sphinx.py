@@ -15,6 +15,8 @@ from fetch_pomdp.adapters.speech.audio import RATE, open_raw, open_wav
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
 from fetch_pomdp.core.ports import Recognizer, Word
 
+pytest.importorskip("pocketsphinx")
+
 DATA = Path(__file__).with_name("data")
 VOCABULARY = ["bowl", "black", "plastic", "marker", "green", "expo", "pen", "spoon", "silver", "metal"]
 
@@ -116,3 +118,11 @@ def test_a_voice_at_another_rate_is_understood(tmp_path: Path) -> None:
     with wave.open(str(path)) as file:
         assert file.getframerate() == 22050
     assert texts(SphinxRecognizer(open_wav(path), VOCABULARY).hear(10.0))[-2:] == ["silver", "spoon"]
+
+
+@pytest.mark.skipif(not shutil.which("flite"), reason="flite is not installed: apt install flite")
+@pytest.mark.parametrize("item", ["meat", "phone"])
+def test_an_item_that_is_or_sounds_like_a_common_word_is_heard_as_the_item(tmp_path: Path, item: str) -> None:
+    path = tmp_path / "item.wav"
+    subprocess.run(["flite", "-voice", "slt", "-t", f"give me the {item}", "-o", str(path)], check=True)
+    assert texts(SphinxRecognizer(open_wav(path), [*VOCABULARY, item]).hear(10.0)) == ["give", "me", "the", item]

@@ -49,13 +49,13 @@ COMMON = tokenize(  # and none that sounds like one of our own, as know
 Links = Mapping[str, Mapping[str, float]]  # how often the second word follows the first
 
 
-def language_model(vocabulary: Iterable[str]) -> str:
+def language_model(vocabulary: Iterable[str], common: Sequence[str] = COMMON) -> str:
     """Return a bigram model over the items' words (`vocabulary`), requests, answers and common words, as ARPA text.
 
     After each word its followers have 1 - UNSEEN of the probability; all others share the rest by their own frequency.
     """
     links = _links(tuple(dict.fromkeys(vocabulary)))
-    alone = _unigrams(links)
+    alone = _unigrams(links, common)
     bigrams, backoff = [], {}
     for word, followers in links.items():
         total = sum(followers.values()) / (1 - UNSEEN)
@@ -67,12 +67,12 @@ def language_model(vocabulary: Iterable[str]) -> str:
     return "\n".join([*counts, "", "\\1-grams:", *unigrams, "", "\\2-grams:", *bigrams, "", "\\end\\", ""])
 
 
-def every_word(vocabulary: Iterable[str]) -> list[str]:
+def every_word(vocabulary: Iterable[str], common: Sequence[str] = COMMON) -> list[str]:
     """Return all words of the language model: those that need a pronunciation."""
-    return [word for word in _unigrams(_links(tuple(dict.fromkeys(vocabulary)))) if word != END]
+    return [word for word in _unigrams(_links(tuple(dict.fromkeys(vocabulary))), common) if word != END]
 
 
-def _unigrams(links: Links) -> dict[str, float]:
+def _unigrams(links: Links, common: Sequence[str]) -> dict[str, float]:
     """Return every word's own probability, of all but the start: nothing comes before it."""
     counts: defaultdict[str, float] = defaultdict(float)
     for followers in links.values():
@@ -80,9 +80,10 @@ def _unigrams(links: Links) -> dict[str, float]:
             counts[follower] += count
     least = LEAST_SHARE * sum(counts.values())
     total = sum(counts.values()) + least * len(counts)
-    others = [word for word in COMMON if word not in counts]
-    own = {word: (1 - COMMON_SHARE) * (count + least) / total for word, count in counts.items()}
-    return own | {word: COMMON_SHARE / len(others) for word in others}
+    others = [word for word in common if word not in counts]
+    share = COMMON_SHARE if others else 0.0
+    own = {word: (1 - share) * (count + least) / total for word, count in counts.items()}
+    return own | {word: share / len(others) for word in others}
 
 
 def _links(vocabulary: Sequence[str]) -> Links:

@@ -28,15 +28,15 @@ Segment: TypeAlias = Any
 FRAMES = 100.0  # decoder frames a second
 NOISE = -30.0  # dB under the utterance's mean power: the decoder was trained on rooms, and hears badly without one
 SEED = 0
-OTHER_TALK = 0.4  # share of common words above which an utterance is not meant for the robot, and only they are given
+OTHER_TALK = 0.45  # share of common words above which an utterance is not meant for the robot, and only they are given
 FILLER = ("<", "[")  # how silence and noises are spelt in the decoder's dictionary
 
 
 class SphinxRecognizer:
     """Ears over a Sound. Implements Recognizer.
 
-    A word is given when its utterance has ended, so `hear` may listen on past its time while someone is speaking, up to
-    11 s; words that end later than that time are kept for the next call.
+    A word is given when its utterance has ended, so `hear` may listen on past its time while someone is speaking, by up
+    to 10 s; words that end later than that time are kept for the next call.
     Raises MissingExtraError without pocketsphinx.
     """
 
@@ -79,14 +79,16 @@ def _decoder(vocabulary: Sequence[str]) -> Decoder:
     known = [word for word in vocabulary if _learn(word, dictionary)]
     if unknown := sorted(set(vocabulary) - set(known)):
         logger.warning("no pronunciation for %s: these words will not be heard", ", ".join(unknown))
+    items = {phones for word in known for phones in dictionary[word]}
+    common = [word for word in COMMON if items.isdisjoint(dictionary[word])]  # "meet" is no word beside an item "meat"
     sounds = [
         f"{word}({number}) {phones}" if number > 1 else f"{word} {phones}"
-        for word in every_word(known)
+        for word in every_word(known, common)
         for number, phones in enumerate(dictionary[word], 1)
     ]
     with tempfile.TemporaryDirectory() as folder:
         language, words = Path(folder) / "scene.arpa", Path(folder) / "scene.dict"
-        language.write_text(language_model(known), encoding="ascii")
+        language.write_text(language_model(known, common), encoding="ascii")
         words.write_text("\n".join([*sounds, ""]), encoding="ascii")  # all of cmudict would take 0.7 s to load, not 0.1
         return pocketsphinx.Decoder(lm=str(language), dict=str(words), loglevel="FATAL")
 
