@@ -33,7 +33,7 @@ def twins(count: int, **model: Any) -> Problem:  # noqa: ANN401
 
 
 def world_of(problem: Problem) -> World:
-    model = problem.model
+    model, rewards = problem.model, problem.rewards
     return World(
         vocabularies=[item.vocabulary for item in problem.scene.items],
         places=[item.position for item in problem.scene.items],
@@ -45,4 +45,8 @@ def world_of(problem: Problem) -> World:
         p_truth=model.p_truth,
         threshold=model.gesture_threshold,
         again=model.p_answer_again,
+        right=rewards.pick_correct,
+        wrong=rewards.pick_wrong,
+        ask=rewards.point,
+        wait=rewards.wait,
     )

@@ -14,7 +14,7 @@ NO_WORDS = ["no", "nope", "other", "not"]
 
 @dataclass(frozen=True, kw_only=True)
 class World:
-    """Items, each with its words and place, and the parameters of the paper."""
+    """Items, each with its words and place, and the parameters and rewards of the paper."""
 
     vocabularies: Sequence[Sequence[str]]
     places: Sequence[Point3] = ()
@@ -26,6 +26,10 @@ class World:
     p_truth: float = 0.99
     threshold: float = 0.3
     again: float = 1.0
+    right: float = 10.0
+    wrong: float = -12.5
+    ask: float = -6.0
+    wait: float = -1.0
 
     @property
     def count(self) -> int:

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 
 from tests.oracles.model import World, class_chance, word_chance
 
-RIGHT, WRONG, ASK, WAIT = 10.0, -12.5, -6.0, -1.0
-
 Leaf = Callable[[Sequence[float], int | None, World], float]
 
 
@@ -23,12 +21,12 @@ class Values:
         return max(self.wait, *self.point, *self.pick)
 
 
-def picks(belief: Sequence[float]) -> list[float]:
-    return [RIGHT * p + WRONG * (1 - p) for p in belief]
+def picks(belief: Sequence[float], world: World) -> list[float]:
+    return [world.right * p + world.wrong * (1 - p) for p in belief]
 
 
 def pick_leaf(belief: Sequence[float], asked: int | None, world: World) -> float:  # noqa: ARG001
-    return max(WAIT, *picks(belief))
+    return max(world.wait, *picks(belief, world))
 
 
 def after(belief: Sequence[float], about: int | None, rate: float, world: World) -> list[tuple[float, list[float]]]:
@@ -70,9 +68,9 @@ def action_values(
                 total += chance * action_values(following, about, depth - 1, world, leaf).best
         return total
 
-    wait = WAIT + ahead(asked, world.p_l * world.again)
-    point = [ASK + ahead(item, world.p_l) for item in range(len(belief))]
-    return Values(wait, point, picks(belief))
+    wait = world.wait + ahead(asked, world.p_l * world.again)
+    point = [world.ask + ahead(item, world.p_l) for item in range(len(belief))]
+    return Values(wait, point, picks(belief, world))
 
 
 def value(belief: Sequence[float], asked: int | None, depth: int, world: World, leaf: Leaf = pick_leaf) -> float:
