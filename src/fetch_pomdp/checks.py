@@ -16,7 +16,10 @@ FARTHEST = 1e6  # m: beyond it squared distances lose the precision that an angl
 
 def shown(value: object, limit: int = 60) -> str:
     """Return `value` as a short single line for a message."""
-    text = re.sub(r"\s+", " ", repr(value))
+    try:
+        text = re.sub(r"\s+", " ", repr(value))
+    except (RecursionError, ValueError):  # nested too deeply, or an int of thousands of digits
+        text = f"a huge {type(value).__name__}"
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
@@ -54,6 +57,8 @@ def text(value: object, field: str, expected: str, error: type[InputError]) -> s
     """Return a text that is not empty."""
     if not isinstance(value, str) or not value.strip():
         raise error(f"found {shown(value)}, expected {expected}", field=field)
+    if any("\ud800" <= letter <= "\udfff" for letter in value):  # JSON can spell them, no file can hold them
+        raise error(f"found {shown(value)}, expected text that UTF-8 can hold", field=field)
     return value
 
 

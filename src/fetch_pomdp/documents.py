@@ -52,11 +52,14 @@ def read_toml(path: str | Path, error: type[InputError]) -> Document:
     except tomllib.TOMLDecodeError as cause:
         message = str(cause)
         place = re.search(r"\s*\(at line (\d+), column \d+\)", message)
-        line = int(place[1]) if place else len(text.splitlines())
+        line = int(place[1]) if place else text.count("\n") + 1
         broken = f"broken TOML: {message[: place.start()] if place else message}, expected `field = value` or a [table]"
         raise error(broken, source=str(path), line=line) from None
     except RecursionError:
         raise error("broken TOML: nested too deeply, expected a few levels", source=str(path)) from None
+    except ValueError as cause:  # a whole number of thousands of digits
+        found, _, _ = str(cause).partition(";")
+        raise error(f"broken TOML: {found}, expected numbers of ordinary size", source=str(path)) from None
     lines = _toml_lines(text)
 
     def line_of(field: str) -> int | None:
@@ -72,7 +75,7 @@ def _toml_lines(text: str) -> dict[str, int]:
     lines: dict[str, int] = {}
     counts: dict[str, int] = {}
     table = ""
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):
         if many := re.match(r"\s*\[\[\s*([\w.-]+)\s*\]\]", line):
             name = many[1]
             counts[name] = counts.get(name, -1) + 1

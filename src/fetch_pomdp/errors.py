@@ -19,7 +19,8 @@ class InputError(FetchPomdpError, ValueError):
     def __init__(self, problem: str, *, field: str = "", source: str = "", line: int | None = None) -> None:
         self.problem, self.field, self.source, self.line = problem, field, source, line
         place = f"{source}:{line}" if source and line is not None else source
-        super().__init__(": ".join(part for part in (place, field, problem) if part))
+        message = ": ".join(part for part in (place, field, problem) if part)
+        super().__init__("".join(letter if letter.isprintable() else " " for letter in message))
 
     def located(self, source: str, line: int | None) -> Self:
         """Return the same complaint, with the file and line it came from."""

@@ -14,6 +14,7 @@ from fetch_pomdp.core.planners.base import Decision, best_action, pick_values, u
 from fetch_pomdp.core.planners.kernels import NOBODY, RootValues, Search
 from fetch_pomdp.core.planners.leaf import leading, leaf_of
 from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.errors import PlannerError
 
 Kernel = Callable[[Vector, int, Search, int, Tables], RootValues]
 
@@ -28,11 +29,13 @@ def searched(
     if kernel not in _compiled:
         _compiled.add(kernel)
         _log.info("loading the compiled planner; the first time after installation it is compiled, for some seconds")
-    seed = int(rng.random() * 2.0**53)
+    probabilities = belief.probabilities
     about = NOBODY if asked is None else asked
-    wait, point, pick, wait_error, point_errors = kernel(belief.probabilities, about, search, seed, problem.tables)
-    if search.questions == 0:
-        point = point_errors = unvalued(problem)
+    if len(probabilities) != problem.n_items or not NOBODY <= about < problem.n_items:  # compiled code checks no index
+        found = f"found a belief over {len(probabilities)} items and a question about item {asked}"
+        raise PlannerError(f"{found}, expected the {problem.n_items} items of the problem", field="belief")
+    seed = int(rng.random() * 2.0**53)
+    wait, point, pick, wait_error, point_errors = kernel(probabilities, about, search, seed, problem.tables)
     return Decision(best_action(wait, point, pick), wait, point, pick, wait_error, point_errors)
 
 

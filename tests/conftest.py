@@ -1,0 +1,42 @@
+"""Settings that must be in force before any test module is imported."""
+
+import hashlib
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+ROOT = Path(__file__).parent.parent
+
+
+def _source_hash() -> str:
+    digest = hashlib.sha256()
+    for path in sorted((ROOT / "src").rglob("*.py")):
+        digest.update(str(path.relative_to(ROOT)).encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:16]
+
+
+def _choose_numba_cache() -> None:
+    """Give each state of the source a cache of its own.
+
+    Numba's cache compares a file's time stamp: it does not notice a change in a function that another file inlines.
+    """
+    caches = ROOT / ".numba-cache"
+    current = caches / _source_hash()
+    for old in caches.glob("*"):
+        if old != current:
+            shutil.rmtree(old, ignore_errors=True)
+    os.environ["NUMBA_CACHE_DIR"] = str(current)
+
+
+_choose_numba_cache()
+settings.register_profile("repeatable", deadline=None, derandomize=True)
+settings.load_profile("repeatable")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line("markers", "slow: takes long when Numba is off; left out of the coverage run")
+    # Without compilation SplitMix64 wraps around in NumPy scalars, which warn.
+    config.addinivalue_line("filterwarnings", "ignore:overflow encountered:RuntimeWarning")

@@ -1,0 +1,226 @@
+"""What every planner promises."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fetch_pomdp.core.action import Action, Pick, Point, Wait
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, Planner, best_action
+from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
+from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
+from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.errors import PlannerError
+from tests.tables import table, twins
+
+AMBIGUOUS = Problem(Scene.load("ambiguous"))
+EXACT_RAYS = Problem(dataclasses.replace(AMBIGUOUS.scene, model=AMBIGUOUS.model.with_changes({"gesture_likelihood": "exact"})))
+LEADING = [0.02, 0.02, 0.55, 0.35, 0.03, 0.03]
+UNEVEN = [0.05, 0.1, 0.35, 0.4, 0.06, 0.04]
+
+SEARCHES: list[Callable[..., Planner]] = [ExactAnswers, SparseSampling, NeverAsk]
+
+
+@pytest.fixture(params=sorted(PLANNERS))
+def planner(request: pytest.FixtureRequest) -> Planner:
+    return PLANNERS[request.param]()
+
+
+def decide(planner: Planner, problem: Problem, belief: list[float], asked: int | None = None, seed: int = 0) -> Decision:
+    return planner.decide(problem, Belief(belief), asked, rng=np.random.default_rng(seed))
+
+
+def plain(decision: Decision) -> tuple[object, ...]:
+    """A decision as data that compares equal, NaN included."""
+    error = decision.point_error
+    arrays = [decision.point, decision.pick, np.zeros(0) if error is None else error]
+    return (decision.action, str(decision.wait), str(decision.wait_error), *(str(array.tolist()) for array in arrays))
+
+
+@pytest.mark.parametrize("asked", [None, 2])
+def test_same_seed_same_decision_and_no_state(planner: Planner, asked: int | None) -> None:
+    first = decide(planner, AMBIGUOUS, UNEVEN, asked)
+    decide(planner, EXACT_RAYS, [1 / 6] * 6, 4, seed=9)
+    assert plain(decide(planner, AMBIGUOUS, UNEVEN, asked)) == plain(first)
+    fresh = type(planner)()
+    assert plain(decide(fresh, AMBIGUOUS, UNEVEN, asked)) == plain(first)
+
+
+def test_belief_is_untouched(planner: Planner) -> None:
+    belief = Belief(UNEVEN)
+    planner.decide(AMBIGUOUS, belief, 1, rng=np.random.default_rng(0))
+    assert belief.probabilities == pytest.approx(UNEVEN, abs=1e-15)
+
+
+@pytest.mark.parametrize("problem", [AMBIGUOUS, EXACT_RAYS])
+@pytest.mark.parametrize("asked", [None, 0, 5])
+@pytest.mark.parametrize("belief", [[1 / 6] * 6, UNEVEN, [0.0, 0.0, 0.5, 0.5, 0.0, 0.0], [0.97, *[0.006] * 5]])
+def test_decisions_are_sound(planner: Planner, problem: Problem, asked: int | None, belief: list[float]) -> None:
+    decision = decide(planner, problem, belief, asked)
+    assert_sound(decision, 6)
+    assert decision.pick == pytest.approx(22.5 * np.array(belief) - 12.5, abs=1e-9)
+    if not isinstance(planner, AlwaysAsk):
+        values = [decision.wait, *decision.point, *decision.pick]
+        assert decision.value == np.nanmax(values)
+
+
+def assert_sound(decision: Decision, count: int) -> None:
+    assert decision.point.shape == decision.pick.shape == (count,)
+    assert isinstance(decision.action, Wait | Point | Pick)
+    if not isinstance(decision.action, Wait):
+        assert 0 <= decision.action.item < count
+    assert np.isfinite(decision.pick).all()
+    assert decision.wait_error >= 0
+    if decision.point_error is not None:
+        assert decision.point_error.shape == (count,)
+        assert (decision.point_error >= 0).all()
+
+
+@pytest.mark.parametrize("asked", [None, 0])
+def test_a_table_with_one_item(planner: Planner, asked: int | None) -> None:
+    decision = decide(planner, table([["cup"]]), [1.0], asked)
+    assert_sound(decision, 1)
+    assert decision.pick[0] == pytest.approx(10.0)
+    if not isinstance(planner, AlwaysAsk):
+        assert decision.action == Pick(0)
+
+
+@pytest.mark.parametrize("asked", [None, 0, 1])
+@pytest.mark.parametrize("belief", [[0.5, 0.5], [0.0, 1.0], [1.0, 0.0], [1e-300, 1.0]])
+def test_two_items(planner: Planner, asked: int | None, belief: list[float]) -> None:
+    decision = decide(planner, table([["cup"], ["mug"]]), belief, asked)
+    assert_sound(decision, 2)
+    if not isinstance(planner, NeverAsk | AlwaysAsk):
+        assert np.isfinite([decision.wait, *decision.point]).all()
+        assert max(decision.wait + 1, *(decision.point + 6)) <= 10 + 1e-9
+
+
+@pytest.mark.parametrize("item", range(6))
+def test_an_item_that_is_certain_is_picked(planner: Planner, item: int) -> None:
+    decision = decide(planner, AMBIGUOUS, [float(other == item) for other in range(6)], item)
+    assert decision.action == Pick(item)
+
+
+@pytest.mark.parametrize("order", [[2, 0, 1], [1, 0, 2], [2, 1, 0]])
+@pytest.mark.parametrize(
+    "planner",
+    [
+        ExactAnswers(depth=1),
+        ExactAnswers(depth=2),
+        ExactAnswers(depth=3, width=2),
+        ExactAnswers(depth=3, width=1, leaf="pick"),
+        SparseSampling(depth=1),
+        NeverAsk(depth=3),
+        AlwaysAsk(),
+    ],
+)
+def test_permuting_twins_permutes_values(planner: Planner, order: list[int]) -> None:
+    belief = [0.5, 0.2, 0.3]
+    here = decide(planner, twins(3), belief, 1)
+    there = decide(planner, twins(3), [belief[item] for item in order], order.index(1))
+    assert there.point == pytest.approx(here.point[order], abs=1e-9, nan_ok=True)
+    assert there.pick == pytest.approx(here.pick[order], abs=1e-9)
+    assert there.wait == pytest.approx(here.wait, abs=1e-9, nan_ok=True)
+    if not isinstance(here.action, Wait) and not isinstance(there.action, Wait):
+        assert order[there.action.item] == here.action.item
+    assert type(there.action) is type(here.action)
+
+
+def test_other_seeds_sample_otherwise() -> None:
+    for make in SEARCHES:
+        found = {decide(make(), AMBIGUOUS, UNEVEN, 2, seed).wait for seed in range(5)}
+        assert len(found) > 1, make
+
+
+@pytest.mark.parametrize("make", SEARCHES)
+def test_more_samples_less_error(make: Callable[..., Planner]) -> None:
+    few = decide(make(depth=2, width=50), AMBIGUOUS, LEADING)
+    many = decide(make(depth=2, width=5_000), AMBIGUOUS, LEADING)
+    assert 5 < few.wait_error / many.wait_error < 20  # ten times less
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("make", SEARCHES)
+def test_stated_errors_are_those_found(make: Callable[..., Planner]) -> None:
+    """Draws are spread evenly over the belief, so the true error may be smaller than the one stated, never much larger."""
+    decisions = [decide(make(depth=2, width=40), AMBIGUOUS, LEADING, 2, seed) for seed in range(400)]
+    stated = float(np.mean([decision.wait_error for decision in decisions]))
+    found = float(np.std([decision.wait for decision in decisions]))
+    assert 0.3 * stated < found < 1.15 * stated
+    if make is not NeverAsk:
+        points = np.array([decision.point for decision in decisions])
+        errors = np.array([decision.point_error for decision in decisions])
+        assert (points.std(axis=0) < 1.15 * errors.mean(axis=0)).all()
+
+
+@pytest.mark.parametrize("make", SEARCHES)
+@pytest.mark.parametrize(("belief", "asked"), [([0.5, 0.5], None), ([1 / 6] * 6, 6), ([1 / 6] * 6, -2), ([1 / 9] * 9, 0)])
+def test_a_belief_over_other_items_is_refused(make: Callable[..., Planner], belief: list[float], asked: int | None) -> None:
+    with pytest.raises(PlannerError, match="belief: found a belief over"):
+        decide(make(depth=2, width=1), AMBIGUOUS, belief, asked)
+
+
+# Choosing among values.
+
+
+@pytest.mark.parametrize(
+    ("wait", "point", "pick", "expected"),
+    [
+        (0.0, [1.0, 2.0], [1.0, 1.5], Point(1)),
+        (3.0, [1.0, 2.0], [1.0, 1.5], Wait()),
+        (0.0, [1.0, 1.0], [1.0, 1.5], Pick(1)),
+        (1.0, [1.0, 1.0], [1.0, 1.0], Pick(0)),
+        (1.0, [1.0, 1.0], [0.0, 0.0], Wait()),
+        (0.0, [2.0, 2.0], [0.0, 0.0], Point(0)),
+        (1.0, [math.nan, math.nan], [0.0, 0.0], Wait()),
+    ],
+)
+def test_best_action_and_its_ties(wait: float, point: list[float], pick: list[float], expected: Action) -> None:
+    assert best_action(wait, np.array(point), np.array(pick)) == expected
+
+
+def test_value_is_that_of_the_action() -> None:
+    values = (1.0, np.array([2.0, 3.0]), np.array([4.0, 5.0]))
+    assert [Decision(action, *values).value for action in (Wait(), Point(1), Pick(0))] == [1.0, 3.0, 4.0]
+
+
+# Names and parameters.
+
+
+def test_the_default_planner_is_ours() -> None:
+    assert planner_named(DEFAULT) == ExactAnswers()
+    assert planner_named("sparse", depth=None, width=3) == SparseSampling(width=3)
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "message"),
+    [
+        ("exakt", {}, "planner: found 'exakt', expected one of exact, sparse, never, always"),
+        ("exact", {"dept": 2}, "dept: unknown parameter of planner 'exact', expected one of depth, width, leaf, did you mean"),
+        ("always", {"depth": 2}, "depth: unknown parameter of planner 'always', expected one of confidence"),
+        ("exact", {"depth": 0}, f"depth: found 0, expected a whole number from 1 to {MOST_DEPTH}"),
+        ("exact", {"depth": MOST_DEPTH + 1}, "depth: found 21"),
+        ("exact", {"width": -1}, "width: found -1"),
+        ("exact", {"width": MOST_WIDTH + 1}, "width: found 1000001"),
+        ("exact", {"leaf": "oak"}, "leaf: found 'oak', expected 'pick' or 'question'"),
+        ("sparse", {"width": 0}, "width: found 0, expected a whole number from 1"),
+        ("sparse", {"depth": True}, "depth: found True"),
+        ("never", {"depth": 1.5}, "depth: found 1.5"),
+        ("never", {"width": "10"}, "width: found '10'"),
+        ("always", {"confidence": 0}, "confidence: found 0, expected a probability above 0 and at most 1"),
+        ("always", {"confidence": math.nan}, "confidence: found nan"),
+    ],
+)
+def test_bad_names_and_parameters(name: str, parameters: dict[str, Any], message: str) -> None:
+    with pytest.raises(PlannerError) as caught:
+        planner_named(name, **parameters)
+    assert str(caught.value).startswith(message)

@@ -1,0 +1,198 @@
+"""The robot's mind in one interaction."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fetch_pomdp.core.action import Pick, Point, Wait
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.events import Acted, Observed
+from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.model import Model, Rewards
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fixed import AlwaysAsk
+from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.ports import Outcome
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.errors import ActionError, BeliefError, InputError, ModelError, ObservationError, SceneError
+
+
+def test_starts_uniform_with_nothing_asked_and_our_planner() -> None:
+    agent = Agent("ambiguous")
+    assert agent.belief == pytest.approx([1 / 6] * 6)
+    assert agent.asked is None
+    assert agent.planner == ExactAnswers()
+    assert agent.scene == Scene.load("ambiguous")
+
+
+def test_observe_is_one_step_of_bayes_and_tells_how_words_were_understood() -> None:
+    agent = Agent("ambiguous")
+    heard = agent.observe("The green MARKER, please! Yes, left.", head=(0.0, 0.0, 1.6), wrist=(0.0, 1.0, 1.3))
+    assert heard.base == ("green", "marker")
+    assert heard.response == ("yes",)
+    assert heard.unknown == ("the", "please", "left")
+    words = ("the", "green", "marker", "please", "yes", "left")
+    seen = Observation(words, Ray((0.0, 0.0, 1.6), (0.0, 1.0, 1.3)))
+    expected = Belief.uniform(6).updated(seen, None, agent.problem)
+    assert agent.belief == pytest.approx(expected.probabilities)
+
+
+def test_silence_may_be_said_in_three_ways() -> None:
+    for utterance in (None, "", " ... "):
+        agent = Agent("ambiguous")
+        agent.observe(utterance)
+        assert agent.belief == pytest.approx([1 / 6] * 6)
+
+
+def test_a_question_asked_persists_until_the_next() -> None:
+    agent = Agent("ambiguous")
+    agent.did(Point(2))
+    for _ in range(3):
+        agent.observe("marker")
+        agent.did(Wait())
+        assert agent.asked == 2
+    agent.observe("no")
+    assert agent.belief[3] > 20 * agent.belief[2]
+    agent.did(Point(5))
+    assert agent.asked == 5
+    agent.did(Pick(1))
+    assert agent.asked == 5
+
+
+def test_act_goes_on_as_if_done() -> None:
+    agent = Agent("ambiguous", AlwaysAsk())
+    assert agent.act() == Wait()
+    assert agent.asked is None
+    agent.observe(head=(0.0, 0.0, 1.6), wrist=(-0.075, 3.2, 0.75))
+    assert agent.act() == Point(2)
+    assert agent.asked == 2
+    agent.observe("yes")
+    assert agent.act() == Pick(2)
+
+
+def test_take_counts_an_action_only_if_it_was_done() -> None:
+    agent = Agent("ambiguous")
+    for outcome in (Outcome.FAILED, Outcome.STOPPED):
+        agent.take(Acted(Point(1), outcome))
+        assert agent.asked is None
+    agent.take(Acted(Point(1)))
+    assert agent.asked == 1
+    agent.take(Observed(Observation(("bowl",))))
+    assert agent.belief[0] > 0.3
+
+
+def test_decide_changes_nothing() -> None:
+    agent = Agent("ambiguous", seed=4)
+    agent.observe("marker")
+    belief = agent.belief
+    decisions = [agent.decide() for _ in range(3)]
+    assert len({(d.action, d.wait, tuple(d.point)) for d in decisions}) == 1
+    assert (agent.belief == belief).all()
+    assert agent.asked is None
+
+
+def test_seeds_decide_what_is_sampled() -> None:
+    def values(seed: int, warmup: int = 0) -> float:
+        agent = Agent("ambiguous", SparseSampling(), seed=seed)
+        agent.observe("marker")
+        for _ in range(warmup):
+            agent.decide()
+        return agent.decide().wait
+
+    assert values(0) == values(0) == values(0, warmup=2)
+    assert len({values(seed) for seed in range(8)}) > 1
+
+
+def test_steps_draw_afresh() -> None:
+    agent, found = Agent("ambiguous", SparseSampling()), set()
+    for _ in range(8):
+        found.add(agent.decide().wait)
+        agent.observe()
+    assert len(found) > 1
+
+
+def test_model_and_rewards_as_a_whole_or_as_changes() -> None:
+    agent = Agent("ambiguous", model={"alpha": 1.0}, rewards={"point": -2.0})
+    assert agent.scene.model == Model(alpha=1.0)
+    assert agent.scene.rewards == Rewards(point=-2.0)
+    whole = Agent("ambiguous", model=Model(p_l=0.5), rewards=Rewards(wait=-0.5))
+    assert whole.problem.tables.p_l == 0.5
+    assert whole.problem.tables.wait == -0.5
+
+
+def test_a_prior_replaces_the_uniform_start() -> None:
+    prior = [0.5, 0.1, 0.1, 0.1, 0.1, 0.1]
+    assert Agent("ambiguous", prior=prior).belief == pytest.approx(prior)
+    with pytest.raises(ObservationError, match="prior: found 2 probabilities, expected 6"):
+        Agent("ambiguous", prior=[0.5, 0.5])
+    with pytest.raises(BeliefError):
+        Agent("ambiguous", prior=[0.5] * 6)
+
+
+def test_item_of_an_action() -> None:
+    agent = Agent("ambiguous")
+    assert agent.item(Wait()) is None
+    found = agent.item(Point(3))
+    assert found is not None
+    assert found.id == "marker-2"
+
+
+@pytest.mark.parametrize(
+    ("kwargs", "message"),
+    [
+        ({"head": (0, 0, 1)}, "wrist: found none, expected head and wrist, or neither"),
+        ({"wrist": (0, 0, 1)}, "head: found none, expected head and wrist, or neither"),
+        ({"head": (0, 0, 1), "wrist": (0, 0, 1)}, "wrist: found the position of the head"),
+        ({"head": (0, 0, math.inf), "wrist": (0, 0, 1)}, "head: found"),
+        ({"head": (0, 0, 0), "wrist": (0, math.nan, 1)}, "wrist: found"),
+        ({"head": "abc", "wrist": (0, 0, 1)}, "head: found 'abc'"),
+        ({"head": (0, True, 0), "wrist": (0, 0, 1)}, "head: found True"),
+        ({"utterance": 3}, "utterance: found 3, expected text or None"),
+        ({"utterance": b"marker"}, "utterance: found b'marker'"),
+    ],
+)
+def test_bad_observations_leave_the_belief_alone(kwargs: Any, message: str) -> None:  # noqa: ANN401
+    agent = Agent("ambiguous")
+    with pytest.raises(ObservationError, match=f"^{message}"):
+        agent.observe(**kwargs)
+    assert agent.belief == pytest.approx([1 / 6] * 6)
+
+
+@pytest.mark.parametrize("item", [6, -1])
+def test_an_action_about_no_item(item: int) -> None:
+    agent = Agent("ambiguous")
+    with pytest.raises(ActionError, match=f"item: found item {item}, expected an index below 6"):
+        agent.did(Point(item))
+    assert agent.asked is None
+
+
+@pytest.mark.parametrize(
+    ("make", "kind"),
+    [
+        (lambda: Agent("ambigous"), SceneError),
+        (lambda: Agent(Path("nowhere.toml")), SceneError),
+        (lambda: Agent("ambiguous", model={"sigmma": 1}), ModelError),
+        (lambda: Agent("ambiguous", model={"sigma": -1}), ModelError),
+        (lambda: Agent("ambiguous", rewards={"point": 3}), ModelError),
+    ],
+)
+def test_bad_beginnings(make: Any, kind: type[InputError]) -> None:  # noqa: ANN401
+    with pytest.raises(kind):
+        make()
+
+
+def test_impossible_evidence_changes_nothing() -> None:
+    agent = Agent("ambiguous", model={"p_truth": 1.0})
+    agent.did(Point(0))
+    agent.observe("yes")
+    before = agent.belief
+    with pytest.raises(BeliefError, match="bowl-1"):
+        agent.observe("no")
+    assert np.array_equal(agent.belief, before)
