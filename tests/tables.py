@@ -18,7 +18,7 @@ def row(count: int) -> list[Point3]:
     return [(0.5 * index - 0.25 * (count - 1), 2.0, 0.75) for index in range(count)]
 
 
-def table(vocabularies: Sequence[Sequence[str]], places: Sequence[Point3] | None = None, **model: Any) -> Problem:  # noqa: ANN401
+def table(vocabularies: Sequence[Sequence[str]], places: Sequence[Point3] | None = None, **model: Any) -> Problem:
     places = row(len(vocabularies)) if places is None else places
     items = tuple(
         Item(id=f"item-{index}", position=place, vocabulary=tuple(words))
@@ -27,7 +27,7 @@ def table(vocabularies: Sequence[Sequence[str]], places: Sequence[Point3] | None
     return Problem(Scene(items=items, head=(0.0, 0.0, 1.6), model=Model(**model)))
 
 
-def twins(count: int, **model: Any) -> Problem:  # noqa: ANN401
+def twins(count: int, **model: Any) -> Problem:
     """Items that share their only word, before a person who never points: answers are all there is to learn."""
     return table([["thing"]] * count, p_g=0.0, **model)
 

@@ -158,7 +158,7 @@ def test_item_of_an_action() -> None:
         ({"utterance": b"marker"}, "utterance: found b'marker'"),
     ],
 )
-def test_bad_observations_leave_the_belief_alone(kwargs: Any, message: str) -> None:  # noqa: ANN401
+def test_bad_observations_leave_the_belief_alone(kwargs: Any, message: str) -> None:
     agent = Agent("ambiguous")
     with pytest.raises(ObservationError, match=f"^{message}"):
         agent.observe(**kwargs)
@@ -183,7 +183,7 @@ def test_an_action_about_no_item(item: int) -> None:
         (lambda: Agent("ambiguous", rewards={"point": 3}), ModelError),
     ],
 )
-def test_bad_beginnings(make: Any, kind: type[InputError]) -> None:  # noqa: ANN401
+def test_bad_beginnings(make: Any, kind: type[InputError]) -> None:
     with pytest.raises(kind):
         make()
 

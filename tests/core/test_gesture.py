@@ -100,7 +100,9 @@ def test_small_angles_are_precise() -> None:
     assert gesture.angles(ray, FORWARD)[0] == pytest.approx(1e-9, rel=1e-5)
 
 
-@pytest.mark.parametrize("towards", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0), (0.6, 0.0, -0.8), (-0.48, 0.64, 0.6)])
+@pytest.mark.parametrize(
+    "towards", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0), (0.6, 0.0, -0.8), (-0.48, 0.64, 0.6)]
+)
 def test_turned_vectors_lie_at_their_angle_all_around(towards: tuple[float, float, float]) -> None:
     direction = np.array(towards, dtype=float)
     for angle in (0.0, 1e-6, 0.3, 1.5, 3.0):

@@ -105,7 +105,7 @@ class Agent:
     def did(self, action: Action) -> None:
         """Go on from an action that the robot did: a question asked is i_r from now on."""
         if not isinstance(action, Wait) and not 0 <= action.item < self.problem.n_items:
-            raise ActionError(f"found {action.item}, expected an index below {self.problem.n_items}", field="item")
+            raise ActionError(f"found item {action.item}, expected an index below {self.problem.n_items}", field="item")
         self.asked = asked_after(action, self.asked)
         self._steps += 1
 

@@ -36,6 +36,9 @@ def searched(
         raise PlannerError(f"{found}, expected the {problem.n_items} items of the problem", field="belief")
     seed = int(rng.random() * 2.0**53)
     wait, point, pick, wait_error, point_errors = kernel(probabilities, about, search, seed, problem.tables)
+    if search.questions == 0:
+        point = unvalued(problem)
+        return Decision(best_action(wait, point, pick), wait, point, pick, wait_error)
     return Decision(best_action(wait, point, pick), wait, point, pick, wait_error, point_errors)
 
 
