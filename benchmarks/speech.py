@@ -1,6 +1,6 @@
 """Our recogniser against PocketSphinx's open English model, on one common set of synthetic voices and noise.
 
-    python benchmarks/speech.py [--quick] [--json] [--cache FOLDER]
+    python benchmarks/speech.py [--quick] [--json] [--cache FOLDER]  # 13 minutes of one core; --quick 4
 
 Word error: words put in, left out or changed, over words said, in sentences about the scene. Meaning error: sentences
 in which the set of item words and of response classes heard is not the set said. False words: item words and response
