@@ -64,7 +64,12 @@ def test_a_scene_file(tmp_path: Path) -> None:
         ("head = [0.0, 0.0, 1.6]", "head = [0.0, 0.0, -inf]", 2, "head: found -inf"),
         ("head = [0.0, 0.0, 1.6]", "head = [0, 0, 0x" + "f" * 9_000 + "]", 2, "head: found a huge int"),
         ("head = [0.0, 0.0, 1.6]", "", 1, "head: found no such field, expected one among 'model', 'rewards', 'items'"),
-        ("head = [0.0, 0.0, 1.6]", "heads = 3\nhead = [0, 0, 1]", 2, "heads: unknown field, expected one of head, items"),
+        (
+            "head = [0.0, 0.0, 1.6]",
+            "heads = 3\nhead = [0, 0, 1]",
+            2,
+            "heads: unknown field, expected one of head, items",
+        ),
         ('id = "pot"', 'id = "cup"', 16, "items[1].id: found 'cup', which items[0] has, expected an id of its own"),
         ('id = "pot"', "id = 7", 16, "items[1].id: found 7"),
         ('id = "pot"', "", 15, "items[1].id: found no such field"),
@@ -79,7 +84,7 @@ def test_a_scene_file(tmp_path: Path) -> None:
         ("# a comment", "a = [1,", 19, "broken TOML: "),
     ],
 )
-def test_a_bad_scene_is_one_line_with_its_place(tmp_path: Path, old: str, new: str, line: int, message: str) -> None:  # noqa: PLR0917
+def test_a_bad_scene_is_one_line_with_its_place(tmp_path: Path, old: str, new: str, line: int, message: str) -> None:
     assert old in GOOD
     path = toml(tmp_path, GOOD.replace(old, new))
     with pytest.raises(InputError) as caught:
@@ -117,7 +122,7 @@ def test_files_that_are_no_scene(tmp_path: Path, content: bytes, message: str) -
 def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     for path in (tmp_path / "none.toml", tmp_path, Path("a\0b.toml"), Path("a" * 5_000 + ".toml")):
         for read in (read_text, read_toml):
-            with pytest.raises(SceneError, match="cannot be read: .*, expected a readable file"):
+            with pytest.raises(SceneError, match=r"cannot be read: .*, expected a readable file"):
                 read(path, SceneError)
         with pytest.raises(EventError, match="cannot be read"):
             list(read_json_lines(path, EventError))
@@ -184,7 +189,7 @@ def test_shown_is_short_and_one_line() -> None:
 
 @given(st.one_of(st.none(), st.booleans(), st.text(), st.binary(), st.lists(st.integers()), st.complex_numbers()))
 def test_number_refuses_what_is_none(value: object) -> None:
-    with pytest.raises(ModelError, match="^x: found"):
+    with pytest.raises(ModelError, match=r"^x: found"):
         checks.number(value, "x", "a number", ModelError)
 
 

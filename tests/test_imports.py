@@ -72,7 +72,14 @@ def test_imports_are_allowed(path: Path) -> None:
 
 
 def test_the_walk_sees_what_is_not_allowed() -> None:
-    source = "import torch.nn\nfrom fetch_pomdp import cli\ndef f():\n    import sounddevice\nif True:\n    from a import b\n"
+    source = """
+import torch.nn
+from fetch_pomdp import cli
+def f():
+    import sounddevice
+if True:
+    from a import b
+"""
     assert list(imports(ast.parse(source))) == [
         ("torch.nn", True),
         ("fetch_pomdp.cli", True),
@@ -96,12 +103,12 @@ def test_files_and_functions_are_short(path: Path) -> None:
 
 
 def test_importing_the_package_loads_neither_adapters_nor_a_command_line() -> None:
-    code = (
-        "import sys, fetch_pomdp\n"
-        "names = [n for n in sys.modules if n.startswith(('fetch_pomdp.adapters', 'fetch_pomdp.cli', 'fetch_pomdp.files'))]\n"
-        "names += [n for n in ('typer', 'rich', 'pocketsphinx', 'soxr', 'sounddevice') if n in sys.modules]\n"
-        "print(names)"
-    )
+    code = """
+import sys, fetch_pomdp
+outside = ("fetch_pomdp.adapters", "fetch_pomdp.cli", "fetch_pomdp.files")
+libraries = {"typer", "rich", "pocketsphinx", "soxr", "sounddevice"}
+print([name for name in sys.modules if name.startswith(outside) or name in libraries])
+"""
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 

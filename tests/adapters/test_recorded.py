@@ -37,7 +37,9 @@ def test_frames_come_each_once_up_to_their_time(tmp_path: Path) -> None:
 
 def test_both_arms() -> None:
     left = [0.2, 0.7, 1.4]
-    eyes = RecordedSkeleton.stream([line(t=0, head=HEAD, left_wrist=left, right_wrist=WRIST), line(t=1, head=HEAD, wrist=None, left_wrist=left)])
+    eyes = RecordedSkeleton.stream(
+        [line(t=0, head=HEAD, left_wrist=left, right_wrist=WRIST), line(t=1, head=HEAD, wrist=None, left_wrist=left)]
+    )
     first, second = eyes.see(2.0)
     assert first.wrists == (tuple(left), tuple(WRIST))
     assert second.wrists == (tuple(left),)

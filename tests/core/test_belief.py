@@ -109,7 +109,9 @@ def test_unknown_words_do_not_move_the_belief(prior: list[float], unknown: list[
 
 @given(prior=priors(4), words=st.lists(st.sampled_from(oracle.YES_WORDS + oracle.NO_WORDS), max_size=4))
 def test_answers_to_no_question_do_not_move_the_belief(prior: list[float], words: list[str]) -> None:
-    assert Belief(prior).updated(Observation(tuple(words)), None, UNEQUAL).probabilities == pytest.approx(prior, abs=1e-12)
+    assert Belief(prior).updated(Observation(tuple(words)), None, UNEQUAL).probabilities == pytest.approx(
+        prior, abs=1e-12
+    )
 
 
 def test_silence_says_nothing_with_equation_seven() -> None:
@@ -164,7 +166,20 @@ def test_a_belief_does_not_change() -> None:
 
 @pytest.mark.parametrize(
     "prior",
-    [[], [0.5, 0.6], [0.5, 0.4], [-0.1, 1.1], [math.nan, 1.0], [math.inf, 0.0], [[0.5, 0.5]], "ab", None, [None, 1], 1.0, ["a"]],
+    [
+        [],
+        [0.5, 0.6],
+        [0.5, 0.4],
+        [-0.1, 1.1],
+        [math.nan, 1.0],
+        [math.inf, 0.0],
+        [[0.5, 0.5]],
+        "ab",
+        None,
+        [None, 1],
+        1.0,
+        ["a"],
+    ],
 )
 def test_priors_that_are_none(prior: Any) -> None:  # noqa: ANN401
     with pytest.raises(BeliefError, match=r"^belief: found"):

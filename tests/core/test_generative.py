@@ -56,7 +56,7 @@ def test_a_pick_ends_without_observation() -> None:
         (1.0, Wait(), None, 0.475, 0.475),
     ],
 )
-def test_answers_come_at_their_rate(again: float, action: Action, asked: int | None, p_yes: float, p_no: float) -> None:  # noqa: PLR0917
+def test_answers_come_at_their_rate(again: float, action: Action, asked: int | None, p_yes: float, p_no: float) -> None:
     problem, draws = twins(2, p_truth=0.9, p_answer_again=again), 4_000
     rng = np.random.default_rng(1)
     counts: Counter[str] = Counter()

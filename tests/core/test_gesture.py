@@ -100,7 +100,9 @@ def test_small_angles_are_precise() -> None:
     assert gesture.angles(ray, FORWARD)[0] == pytest.approx(1e-9, rel=1e-5)
 
 
-@pytest.mark.parametrize("towards", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0), (0.6, 0.0, -0.8), (-0.48, 0.64, 0.6)])
+@pytest.mark.parametrize(
+    "towards", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, -1, 0), (0.6, 0.0, -0.8), (-0.48, 0.64, 0.6)]
+)
 def test_turned_vectors_lie_at_their_angle_all_around(towards: tuple[float, float, float]) -> None:
     direction = np.array(towards, dtype=float)
     for angle in (0.0, 1e-6, 0.3, 1.5, 3.0):
@@ -115,7 +117,7 @@ def test_turned_vectors_lie_at_their_angle_all_around(towards: tuple[float, floa
 
 
 def test_exact_density_by_hand() -> None:
-    # Twice the Gaussian, spread over a circle of 2 pi sin t: 0.1 * 2 * 1.6131382 / (2 pi sin 0.15) = 0.34360 per steradian.
+    # Twice the Gaussian, spread over a circle of 2 pi sin t: 0.1 * 2 * 1.6131382 / (2 pi sin 0.15) = 0.34360 per sr.
     exact = table([["a"], ["b"]], places=[(0.0, 1.0, 1.6), (1.0, 0.0, 1.6)], gesture_likelihood="exact")
     assert density(aimed(0.15), exact)[0] == pytest.approx(0.343604, rel=1e-5)
 
@@ -199,7 +201,7 @@ def test_sampled_rays_roll_evenly_around_the_item() -> None:
 
 
 def test_default_sampler_has_the_angles_of_a_gaussian() -> None:
-    """Eq. 7 by default is no density of these rays, and exempt; their angles are |N(0, sigma)|, cut at the threshold."""
+    """Eq. 7, the default, is no density of these rays, and exempt; their angles are |N(0, sigma)|, cut off."""
     rng, draws = np.random.default_rng(11), 20_000
     drawn = [gesture.sample(0, FORWARD, rng) for _ in range(draws)]
     angles = np.array([gesture.angles(ray, FORWARD)[0] for ray in drawn if ray is not None])

@@ -86,7 +86,9 @@ class Arm:
         self.done.append("stop")
 
 
-def run(script: Script, ears: Ears | None = None, eyes: Eyes | None = None, arm: Arm | None = None) -> tuple[Agent, list[Event]]:
+def run(
+    script: Script, ears: Ears | None = None, eyes: Eyes | None = None, arm: Arm | None = None
+) -> tuple[Agent, list[Event]]:
     agent = Agent("ambiguous", script)
     return agent, list(interact(agent, arm or Arm(), ears, eyes))
 
@@ -166,7 +168,7 @@ def test_times_are_parameters() -> None:
 
 @pytest.mark.parametrize(("wait", "question"), [(0.0, 1.0), (-1.0, 1.0), (1.0, 0.9), (math.nan, 1.0), (1.0, math.inf)])
 def test_times_that_are_none(wait: float, question: float) -> None:
-    with pytest.raises(ModelError, match="^timing: found wait"):
+    with pytest.raises(ModelError, match=r"^timing: found wait"):
         Timing(wait=wait, question=question)
 
 

@@ -163,7 +163,9 @@ def test_scenes_that_are_none() -> None:
     head = (0.0, 0.0, 1.6)
     with pytest.raises(SceneError, match="items: found no items, expected one or more"):
         Scene(items=(), head=head)
-    with pytest.raises(SceneError, match=r"items\[2\]\.id: found 'cup', which items\[0\] has, expected an id of its own"):
+    with pytest.raises(
+        SceneError, match=r"items\[2\]\.id: found 'cup', which items\[0\] has, expected an id of its own"
+    ):
         Scene(items=(an_item(), an_item("mug"), an_item()), head=head)
     with pytest.raises(SceneError, match=r"items\[1\]\.position: found the position of the head"):
         Scene(items=(an_item(), an_item("mug", head)), head=head)

@@ -42,7 +42,9 @@ def test_rewards_add_up_to_the_return() -> None:
     script: list[Action] = [Wait(), Point(1), Wait(), Point(0), Pick(2)]
     for desired, last in [(2, 10.0), (0, -12.5)]:
         planner = Scripted(lambda step: script[step])
-        episode = run_episode(PROBLEMS["ambiguous"], planner, desired, np.random.default_rng(0), np.random.default_rng(0))
+        episode = run_episode(
+            PROBLEMS["ambiguous"], planner, desired, np.random.default_rng(0), np.random.default_rng(0)
+        )
         assert episode.earned == pytest.approx(-1 - 6 - 1 - 6 + last)
         assert episode.correct == (desired == 2)
         assert (episode.steps, episode.questions) == (4, 2)
@@ -114,7 +116,9 @@ def test_every_item_is_desired_equally_often() -> None:
         (AlwaysAsk, "unambiguous", -2.5, 0.1),
     ],
 )
-def test_mean_returns_measured_before(make: Callable[[], Planner], layout: str, expected: float, known_within: float) -> None:
+def test_mean_returns_measured_before(
+    make: Callable[[], Planner], layout: str, expected: float, known_within: float
+) -> None:
     found = simulate(PROBLEMS[layout], make(), 4_000, 1)
     assert abs(found.mean_return - expected) <= 4 * found.standard_error + 2 * known_within
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import io
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,10 +47,12 @@ actions: st.SearchStrategy[Action] = st.just(Wait()) | st.builds(Point, items) |
 texts = st.lists(st.sampled_from(["marker", "yes", "löffel", "it's", "left", "7"]), max_size=4).map(tuple)
 coordinates = st.floats(-10, 10)
 points = st.tuples(coordinates, coordinates, coordinates)
-rays = st.none() | st.tuples(points, points).filter(lambda pair: sum(abs(a - b) for a, b in zip(*pair, strict=True)) > 0.1).map(
-    lambda pair: Ray(*pair)
+rays = st.none() | st.tuples(points, points).filter(
+    lambda pair: sum(abs(a - b) for a, b in zip(*pair, strict=True)) > 0.1
+).map(lambda pair: Ray(*pair))
+words = st.lists(
+    st.builds(Word, st.sampled_from(["marker", "uh"]), coordinates, coordinates, st.floats(0, 1)), max_size=3
 )
-words = st.lists(st.builds(Word, st.sampled_from(["marker", "uh"]), coordinates, coordinates, st.floats(0, 1)), max_size=3)
 events: st.SearchStrategy[Event] = st.builds(
     Observed, st.builds(Observation, texts, rays), words.map(tuple), times
 ) | st.builds(Acted, actions, st.sampled_from(Outcome), st.none(), times)
@@ -125,7 +128,7 @@ def test_a_log_on_disk_is_read_back(tmp_path: Path) -> None:
     assert recording.over
     with pytest.raises(EventError, match="found a file there already, expected a new one"):
         EventLog.create(path, headers[1])
-    with pytest.raises(EventError, match="cannot be written: .*, expected a folder for it"):
+    with pytest.raises(EventError, match=r"cannot be written: .*, expected a folder for it"):
         EventLog.create(tmp_path / "none" / "log.jsonl", headers[1])
 
 
@@ -196,7 +199,7 @@ def test_words_speak_where_there_is_no_utterance() -> None:
 # What cannot be a recording.
 
 
-def written(tmp_path: Path, lines: list[dict[str, Any]]) -> Path:
+def written(tmp_path: Path, lines: Sequence[object]) -> Path:
     path = tmp_path / "events.jsonl"
     path.write_text("".join(json.dumps(line) + "\n" for line in lines))
     return path
@@ -216,9 +219,15 @@ ONE_ITEM = {"id": "cup", "position": [0, 1, 0], "vocabulary": ["cup"]}
         ({"scene": {"head": [0, 0, 1], "items": []}}, "scene.items: found no items"),
         ({"scene": {"head": [0, 0, 1], "items": [ONE_ITEM], "model": {}}}, "scene.model: unknown field"),
         ({"scene": {"head": [0, 0, float("nan")], "items": [ONE_ITEM]}}, "scene.head: found nan"),
-        ({"scene": {"head": [0, 0, 1], "items": [ONE_ITEM, ONE_ITEM]}}, "scene.items[1].id: found 'cup', which items[0]"),
+        (
+            {"scene": {"head": [0, 0, 1], "items": [ONE_ITEM, ONE_ITEM]}},
+            "scene.items[1].id: found 'cup', which items[0]",
+        ),
         ({"scene": {"head": [0, 0, 1], "items": [{**ONE_ITEM, "id": "\ud800"}]}}, "scene.items[0].id: found '\\ud800'"),
-        ({"scene": {"head": [0, 0, 1], "items": [{**ONE_ITEM, "vocabulary": []}]}}, "scene.items[0].vocabulary: found []"),
+        (
+            {"scene": {"head": [0, 0, 1], "items": [{**ONE_ITEM, "vocabulary": []}]}},
+            "scene.items[0].vocabulary: found []",
+        ),
         ({"scene": "ambiguous", "version": 2}, "version: found 2, expected 1"),
         ({"scene": "ambiguous", "version": True}, "version: found True, expected 1"),
         ({"scene": "ambiguous", "version": None}, "version: found None, expected 1"),
@@ -227,7 +236,10 @@ ONE_ITEM = {"id": "cup", "position": [0, 1, 0], "vocabulary": ["cup"]}
         ({"scene": "ambiguous", "model": {"sgma": 1}}, "model.sgma: unknown parameter"),
         ({"scene": "ambiguous", "model": [1]}, "model: found [1], expected a table"),
         ({"scene": "ambiguous", "rewards": {"wait": 1}}, "rewards.wait: found 1"),
-        ({"scene": "ambiguous", "planner": "exakt"}, "planner: found 'exakt', expected one of exact, sparse, never, always"),
+        (
+            {"scene": "ambiguous", "planner": "exakt"},
+            "planner: found 'exakt', expected one of exact, sparse, never, always",
+        ),
         ({"scene": "ambiguous", "planner": {"name": "exact", "dept": 2}}, "planner.dept: unknown parameter of planner"),
         ({"scene": "ambiguous", "planner": {"name": "exact", "depth": 0}}, "planner.depth: found 0"),
         ({"scene": "ambiguous", "planner": {"name": 3}}, "planner: found 3, expected a planner's name"),
@@ -261,7 +273,10 @@ def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: 
         ({"action": "point"}, "item: found no such field"),
         ({"action": "point", "item": "cup"}, "item: found 'cup', expected one of bowl-1"),
         ({"action": "pick", "item": 0}, "item: found 0, expected the id of an item"),
-        ({"action": "pick", "item": "bowl-1", "outcome": "lost"}, "outcome: found 'lost', expected one of done, failed, stopped"),
+        (
+            {"action": "pick", "item": "bowl-1", "outcome": "lost"},
+            "outcome: found 'lost', expected one of done, failed, stopped",
+        ),
         ({"action": "pick", "item": "bowl-1", "outcome": None}, "outcome: found None"),
         ({"action": "wait", "t": "now"}, "t: found 'now', expected a time in seconds"),
         ({"action": "wait", "t": float("nan")}, "t: found nan"),

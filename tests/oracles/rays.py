@@ -32,7 +32,9 @@ def angles(rays: Array, items: Array) -> Array:
     return np.asarray(np.arctan2(cross, rays @ items.T))
 
 
-def miss_chance(items: Array, item: int, sigma: float, threshold: float, rng: np.random.Generator) -> tuple[float, float]:
+def miss_chance(
+    items: Array, item: int, sigma: float, threshold: float, rng: np.random.Generator
+) -> tuple[float, float]:
     """The chance that a ray drawn around an item is near none, and its standard error."""
     count = 200_000
     missed = (angles(draw(items[item], sigma, count, rng), items) > threshold).all(axis=1)

@@ -23,7 +23,9 @@ from fetch_pomdp.errors import PlannerError
 from tests.tables import table, twins
 
 AMBIGUOUS = Problem(Scene.load("ambiguous"))
-EXACT_RAYS = Problem(dataclasses.replace(AMBIGUOUS.scene, model=AMBIGUOUS.model.with_changes({"gesture_likelihood": "exact"})))
+EXACT_RAYS = Problem(
+    dataclasses.replace(AMBIGUOUS.scene, model=AMBIGUOUS.model.with_changes({"gesture_likelihood": "exact"}))
+)
 LEADING = [0.02, 0.02, 0.55, 0.35, 0.03, 0.03]
 UNEVEN = [0.05, 0.1, 0.35, 0.4, 0.06, 0.04]
 
@@ -35,7 +37,9 @@ def planner(request: pytest.FixtureRequest) -> Planner:
     return PLANNERS[request.param]()
 
 
-def decide(planner: Planner, problem: Problem, belief: list[float], asked: int | None = None, seed: int = 0) -> Decision:
+def decide(
+    planner: Planner, problem: Problem, belief: list[float], asked: int | None = None, seed: int = 0
+) -> Decision:
     return planner.decide(problem, Belief(belief), asked, rng=np.random.default_rng(seed))
 
 
@@ -151,7 +155,7 @@ def test_more_samples_less_error(make: Callable[..., Planner]) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("make", SEARCHES)
 def test_stated_errors_are_those_found(make: Callable[..., Planner]) -> None:
-    """Draws are spread evenly over the belief, so the true error may be smaller than the one stated, never much larger."""
+    """Draws are spread evenly over the belief: the true error may be smaller than the one stated, never much larger."""
     decisions = [decide(make(depth=2, width=40), AMBIGUOUS, LEADING, 2, seed) for seed in range(400)]
     stated = float(np.mean([decision.wait_error for decision in decisions]))
     found = float(np.std([decision.wait for decision in decisions]))
@@ -163,8 +167,12 @@ def test_stated_errors_are_those_found(make: Callable[..., Planner]) -> None:
 
 
 @pytest.mark.parametrize("make", SEARCHES)
-@pytest.mark.parametrize(("belief", "asked"), [([0.5, 0.5], None), ([1 / 6] * 6, 6), ([1 / 6] * 6, -2), ([1 / 9] * 9, 0)])
-def test_a_belief_over_other_items_is_refused(make: Callable[..., Planner], belief: list[float], asked: int | None) -> None:
+@pytest.mark.parametrize(
+    ("belief", "asked"), [([0.5, 0.5], None), ([1 / 6] * 6, 6), ([1 / 6] * 6, -2), ([1 / 9] * 9, 0)]
+)
+def test_a_belief_over_other_items_is_refused(
+    make: Callable[..., Planner], belief: list[float], asked: int | None
+) -> None:
     with pytest.raises(PlannerError, match="belief: found a belief over"):
         decide(make(depth=2, width=1), AMBIGUOUS, belief, asked)
 
@@ -205,7 +213,11 @@ def test_the_default_planner_is_ours() -> None:
     ("name", "parameters", "message"),
     [
         ("exakt", {}, "planner: found 'exakt', expected one of exact, sparse, never, always"),
-        ("exact", {"dept": 2}, "dept: unknown parameter of planner 'exact', expected one of depth, width, leaf, did you mean"),
+        (
+            "exact",
+            {"dept": 2},
+            "dept: unknown parameter of planner 'exact', expected one of depth, width, leaf, did you mean",
+        ),
         ("always", {"depth": 2}, "depth: unknown parameter of planner 'always', expected one of confidence"),
         ("exact", {"depth": 0}, f"depth: found 0, expected a whole number from 1 to {MOST_DEPTH}"),
         ("exact", {"depth": MOST_DEPTH + 1}, "depth: found 21"),

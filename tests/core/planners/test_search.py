@@ -21,7 +21,14 @@ from tests.oracles import asking
 from tests.oracles.value import Values, action_values, after, pick_leaf, value
 from tests.tables import table, twins, world_of
 
-BELIEFS = [[1 / 3, 1 / 3, 1 / 3], [0.7, 0.2, 0.1], [0.05, 0.5, 0.45], [0.0, 0.5, 0.5], [0.0, 0.0, 1.0], [0.9, 0.05, 0.05]]
+BELIEFS = [
+    [1 / 3, 1 / 3, 1 / 3],
+    [0.7, 0.2, 0.1],
+    [0.05, 0.5, 0.45],
+    [0.0, 0.5, 0.5],
+    [0.0, 0.0, 1.0],
+    [0.9, 0.05, 0.05],
+]
 
 
 def decided(planner: Planner, problem: Problem, belief: list[float], asked: int | None, seed: int = 0) -> Decision:
@@ -56,7 +63,6 @@ def test_exact_answers_with_leaf_question_equals_enumeration(depth: int, again: 
     for belief in BELIEFS[:4] if depth < 3 else BELIEFS[1:3]:
         found = decided(ExactAnswers(depth=depth, width=1, leaf="question"), problem, belief, asked)
         assert_equal(found, action_values(belief, asked, depth, world_of(problem), asking.question_leaf))
-
 
 
 @pytest.mark.parametrize("planner", [ExactAnswers(depth=1, leaf="pick"), SparseSampling(depth=1), NeverAsk(depth=1)])
@@ -112,7 +118,11 @@ def test_exact_answers_equals_enumeration_anywhere(
     assert found.point.tolist() == pytest.approx(expected.point, abs=1e-8)
 
 
-PRICES = [{"wait": -0.3, "point": -2.0}, {"wait": 0.0, "point": 0.0}, {"pick_correct": 3.0, "pick_wrong": -40.0, "point": -1.0}]
+PRICES = [
+    {"wait": -0.3, "point": -2.0},
+    {"wait": 0.0, "point": 0.0},
+    {"pick_correct": 3.0, "pick_wrong": -40.0, "point": -1.0},
+]
 
 
 @pytest.mark.parametrize("prices", PRICES)
@@ -131,7 +141,8 @@ def test_prices_are_those_of_the_scene(prices: dict[str, float], asked: int | No
         found = decided(ExactAnswers(depth=1, leaf="pick"), problem, belief, asked)
         assert found.value == pytest.approx(pick_leaf(belief, asked, world), abs=1e-9)
         assert_within_errors(
-            decided(SparseSampling(depth=2, width=2_000), problem, belief, asked), action_values(belief, asked, 2, world)
+            decided(SparseSampling(depth=2, width=2_000), problem, belief, asked),
+            action_values(belief, asked, 2, world),
         )
 
 
@@ -155,6 +166,17 @@ def test_sparse_sampling_of_three_actions_nears_enumeration(asked: int | None) -
     expected = action_values([0.5, 0.3, 0.2], asked, 3, world_of(twins(3, p_answer_again=0.5)))
     assert found.wait == pytest.approx(expected.wait, abs=0.25)
     assert found.point.tolist() == pytest.approx(expected.point, abs=0.25)
+
+
+@pytest.mark.parametrize("depth", [2, 3, 4])
+@pytest.mark.parametrize("asked", [None, 0, 2])
+def test_sparse_sampling_is_exact_where_evenly_spread_draws_are(depth: int, asked: int | None) -> None:
+    """Certain and truthful answers depend on the desired item alone, and twelve even draws hold each item's share."""
+    problem = twins(3, p_l=1 - 1e-9, p_truth=1.0)
+    found = decided(SparseSampling(depth=depth, width=12), problem, [0.5, 0.25, 0.25], asked)
+    expected = action_values([0.5, 0.25, 0.25], asked, depth, world_of(problem))
+    assert found.wait == pytest.approx(expected.wait, abs=1e-6)
+    assert found.point.tolist() == pytest.approx(expected.point, abs=1e-6)
 
 
 # A problem where words do matter, small enough to enumerate.
