@@ -204,12 +204,11 @@ def test_median_of_pointing_frames_ignores_a_stray_one() -> None:
 
 
 def test_median_of_directions_not_of_lengths() -> None:
-    # Arms of different length: one long arm to the left does not outweigh two short ones.
-    far = tuple(h + 4 * (w - h) for h, w in zip(HEAD, towards(-0.375), strict=True))
-    frames = [frame(0, towards(0.225)), frame(0, towards(0.225)), Frame(0, HEAD, ((far[0], far[1], far[2]),))]
-    ray = median_ray(frames, PROBLEM)
+    # The arm in the middle is four times as long; of each coordinate of plain arms, the median would point at item 4.
+    x, y, z = (h + 4 * (w - h) for h, w in zip(HEAD, towards(0.075), strict=True))
+    ray = median_ray([frame(0, towards(-0.375)), frame(0, (x, y, z)), frame(0, towards(0.375))], PROBLEM)
     assert ray is not None
-    assert angles(ray, PROBLEM)[4] < 1e-9
+    assert angles(ray, PROBLEM)[3] < 0.01
 
 
 def test_median_follows_a_moving_head() -> None:
