@@ -21,7 +21,15 @@ from fetch_pomdp.core.planners.fixed import AlwaysAsk
 from fetch_pomdp.core.planners.sparse import SparseSampling
 from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.errors import ActionError, BeliefError, InputError, ModelError, ObservationError, SceneError
+from fetch_pomdp.errors import (
+    ActionError,
+    BeliefError,
+    InputError,
+    ModelError,
+    ObservationError,
+    PlannerError,
+    SceneError,
+)
 
 
 def test_starts_uniform_with_nothing_asked_and_our_planner() -> None:
@@ -181,6 +189,8 @@ def test_an_action_about_no_item(item: int) -> None:
         (lambda: Agent("ambiguous", model={"sigmma": 1}), ModelError),
         (lambda: Agent("ambiguous", model={"sigma": -1}), ModelError),
         (lambda: Agent("ambiguous", rewards={"point": 3}), ModelError),
+        (lambda: Agent("ambiguous", seed=-1), PlannerError),
+        (lambda: Agent("ambiguous", seed=1.0), PlannerError),  # type: ignore[arg-type]
     ],
 )
 def test_bad_beginnings(make: Any, kind: type[InputError]) -> None:

@@ -135,6 +135,17 @@ def test_a_thousand_contradictory_observations() -> None:
     assert np.isfinite(belief.log_probabilities).all()
 
 
+def test_an_observation_of_almost_no_chance_is_weighed_all_the_same() -> None:
+    # 2,000 words have a chance of about exp(-4,000), far below the smallest float.
+    found = Belief.uniform(6).updated(Observation(("marker", "bowl") * 1_000 + ("no",) * 500), 2, AMBIGUOUS)
+    assert found.probabilities == pytest.approx([1 / 3, 1 / 3, 0.0, 1 / 3, 0.0, 0.0], abs=1e-9)
+    narrow = table([["cup"], ["mug"]], sigma=0.001)
+    ray = Ray((0.0, 0.0, 1.6), (0.0, 2.0, 0.75))  # halfway between the two
+    assert Belief.uniform(2).updated(Observation((), ray), None, narrow).probabilities == pytest.approx(
+        [0.5, 0.5], abs=1e-6
+    )
+
+
 def test_rate_of_answers_after_a_wait_does_not_change_how_words_are_read() -> None:
     again = table([["cup"], ["mug"]], p_answer_again=0.0)
     literal = table([["cup"], ["mug"]])

@@ -117,7 +117,7 @@ def test_turned_vectors_lie_at_their_angle_all_around(towards: tuple[float, floa
 
 
 def test_exact_density_by_hand() -> None:
-    # Twice the Gaussian, spread over a circle of 2 pi sin t: 0.1 * 2 * 1.6131382 / (2 pi sin 0.15) = 0.34360 per steradian.
+    # Twice the Gaussian, spread over a circle of 2 pi sin t: 0.1 * 2 * 1.6131382 / (2 pi sin 0.15) = 0.34360 per sr.
     exact = table([["a"], ["b"]], places=[(0.0, 1.0, 1.6), (1.0, 0.0, 1.6)], gesture_likelihood="exact")
     assert density(aimed(0.15), exact)[0] == pytest.approx(0.343604, rel=1e-5)
 
@@ -148,13 +148,19 @@ def test_exact_density_integrates_with_the_chance_of_no_gesture_to_one() -> None
         assert pointing + null[item] == pytest.approx(1.0, abs=1e-3), item
 
 
-@pytest.mark.parametrize(("sigma", "threshold"), [(0.15, 0.3), (0.25, 0.3), (0.4, 0.1), (0.7, 0.5)])
+@pytest.mark.parametrize(("sigma", "threshold"), [(0.15, 0.3), (0.4, 0.1), (0.7, 0.5), (0.7, 1.2)])
 def test_miss_chances_against_rays_drawn_one_by_one(sigma: float, threshold: float) -> None:
     items = brute.directions(CROWDED.scene.head, [item.position for item in CROWDED.scene.items])
     found = miss_chances(items, sigma, threshold)
     for item in range(len(items)):
         expected, error = brute.miss_chance(items, item, sigma, threshold, np.random.default_rng(item))
         assert abs(found[item] - expected) <= 4 * error + 1e-5
+
+
+def test_a_circle_of_rays_that_lies_wholly_near_another_item_is_covered() -> None:
+    # From an item straight behind, every ray beyond 2 rad of the one ahead is within pi - 2 rad.
+    behind = miss_chances(np.array([[0.0, 1.0, 0.0], [0.0, -1.0, 0.0]]), 0.7, 2.0)
+    assert behind == pytest.approx([0.0, 0.0], abs=1e-12)
 
 
 def test_miss_chances_of_items_in_one_place_are_those_of_one() -> None:
@@ -201,7 +207,7 @@ def test_sampled_rays_roll_evenly_around_the_item() -> None:
 
 
 def test_default_sampler_has_the_angles_of_a_gaussian() -> None:
-    """Eq. 7 by default is no density of these rays, and exempt; their angles are |N(0, sigma)|, cut at the threshold."""
+    """Eq. 7, the default, is no density of these rays, and exempt; their angles are |N(0, sigma)|, cut off."""
     rng, draws = np.random.default_rng(11), 20_000
     drawn = [gesture.sample(0, FORWARD, rng) for _ in range(draws)]
     angles = np.array([gesture.angles(ray, FORWARD)[0] for ray in drawn if ray is not None])

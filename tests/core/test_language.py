@@ -32,7 +32,7 @@ def response(words: str, asked: int | None, problem: Problem, rate: float = 0.95
 
 
 def test_one_base_word_by_hand() -> None:
-    # 12 words in all, 4 an item: p(marker | marker) = 1.2 / (4 + 0.2 * 12) = 0.1875, p(marker | bowl) = 0.2 / 6.4 = 0.03125.
+    # 12 words in all, 4 an item: p(marker | marker) = 1.2 / (4 + 0.2 * 12) = 0.1875, p(marker | bowl) = 0.03125.
     own, other = 0.95 * 0.1875, 0.95 * 0.03125
     assert base("marker", AMBIGUOUS) == pytest.approx([other, other, own, own, other, other], rel=1e-12)
 
@@ -57,8 +57,8 @@ def test_vocabularies_of_unequal_size_by_hand() -> None:
 
 @pytest.mark.parametrize("problem", [AMBIGUOUS, UNEQUAL])
 def test_chances_of_single_words_and_silence_sum_to_one(problem: Problem) -> None:
-    spoken = sum(np.array(base(word, problem)) for word in problem.words)
-    assert spoken + base("", problem) == pytest.approx(np.ones(problem.n_items), abs=1e-12)
+    spoken = np.sum([base(word, problem) for word in (*problem.words, "")], axis=0)
+    assert spoken == pytest.approx(np.ones(problem.n_items), abs=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -88,8 +88,8 @@ def test_negative_words(word: str) -> None:
 
 @pytest.mark.parametrize("asked", [None, 0, 2])
 def test_chances_of_single_answers_and_silence_sum_to_one(asked: int | None) -> None:
-    total = sum(np.array(response(word, asked, UNEQUAL, 0.3)) for word in ANSWERS)
-    assert total + response("", asked, UNEQUAL, 0.3) == pytest.approx(np.ones(3), abs=1e-12)
+    total = np.sum([response(word, asked, UNEQUAL, 0.3) for word in (*ANSWERS, "")], axis=0)
+    assert total == pytest.approx(np.ones(3), abs=1e-12)
 
 
 def test_rate_is_halved_after_a_wait_by_p_answer_again() -> None:

@@ -21,7 +21,7 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import Utterance
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.base import Decision, Planner
+from fetch_pomdp.core.planners.base import Decision, Planner, whole_number
 from fetch_pomdp.core.planners.exact import ExactAnswers
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
@@ -52,7 +52,7 @@ class Agent:
         changed_rewards = rewards if isinstance(rewards, Rewards) else table.rewards.with_changes(rewards or {})
         self.problem = Problem(dataclasses.replace(table, model=changed_model, rewards=changed_rewards))
         self.planner: Planner = planner if planner is not None else ExactAnswers()
-        self.seed = seed
+        self.seed = whole_number(seed, 0, 2**63 - 1, "seed")
         self.asked: int | None = None  # i_r, as an index into the scene's items
         self._belief = Belief.uniform(self.problem.n_items) if prior is None else Belief(prior)
         if len(self._belief.log_probabilities) != self.problem.n_items:

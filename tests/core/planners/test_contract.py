@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
@@ -155,7 +157,7 @@ def test_more_samples_less_error(make: Callable[..., Planner]) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("make", SEARCHES)
 def test_stated_errors_are_those_found(make: Callable[..., Planner]) -> None:
-    """Draws are spread evenly over the belief, so the true error may be smaller than the one stated, never much larger."""
+    """Draws are spread evenly over the belief: the true error may be smaller than the one stated, never much larger."""
     decisions = [decide(make(depth=2, width=40), AMBIGUOUS, LEADING, 2, seed) for seed in range(400)]
     stated = float(np.mean([decision.wait_error for decision in decisions]))
     found = float(np.std([decision.wait for decision in decisions]))
@@ -175,6 +177,42 @@ def test_a_belief_over_other_items_is_refused(
 ) -> None:
     with pytest.raises(PlannerError, match="belief: found a belief over"):
         decide(make(depth=2, width=1), AMBIGUOUS, belief, asked)
+
+
+extremes = {
+    "alpha": st.sampled_from([1e-9, 0.2, 1e9]),
+    "p_l": st.sampled_from([1e-9, 0.5, 0.95, 1 - 1e-9]),
+    "p_g": st.sampled_from([0.0, 0.1, 1 - 1e-9]),
+    "sigma": st.sampled_from([1e-6, 0.001, 0.15, 0.7]),
+    "p_truth": st.sampled_from([0.5, 0.99, 1.0]),
+    "gesture_threshold": st.sampled_from([1e-6, 0.3, math.pi]),
+    "gesture_likelihood": st.sampled_from(["eq7", "exact"]),
+    "p_answer_again": st.sampled_from([0.0, 1e-9, 0.5, 1.0]),
+}
+
+
+@given(
+    parameters=st.fixed_dictionaries(extremes),
+    weights=st.lists(st.sampled_from([0.0, 1e-300, 1e-12, 0.3, 1.0]), min_size=4, max_size=4).filter(
+        lambda w: max(w) > 0.1
+    ),
+    asked=st.sampled_from([None, 0, 3]),
+    depth=st.integers(1, 3),
+    make=st.sampled_from(SEARCHES),
+)
+@settings(max_examples=150)
+def test_values_are_finite_and_possible_in_any_model(
+    parameters: dict[str, Any], weights: list[float], asked: int | None, depth: int, make: Callable[..., Planner]
+) -> None:
+    vocabularies = [["cup"], ["cup", "mug"], ["pot", "tea", "red"], ["tea"]]
+    problem = table(vocabularies, **parameters)
+    decision = decide(make(depth=depth, width=3), problem, [w / sum(weights) for w in weights], asked)
+    assert_sound(decision, 4)
+    values = [decision.wait, *decision.pick] if make is NeverAsk else [decision.wait, *decision.point, *decision.pick]
+    assert np.isfinite(values).all()
+    assert min(decision.pick) >= -12.5 - 1e-9
+    assert max(values) <= 10 + 1e-9
+    assert min(values) >= -6 * depth - 12.5
 
 
 # Choosing among values.

@@ -10,6 +10,7 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
+from tests.tables import table
 
 PROBLEM = Problem(Scene.load("ambiguous"))
 
@@ -42,6 +43,12 @@ def test_always_ask_goes_on_until_it_holds_its_confidence() -> None:
     assert always(just_below, 0) == Point(0)
     assert always(just_above, 0) == Pick(0)
     assert always(just_below, 0, confidence=0.9) == Pick(0)
+
+
+def test_always_ask_does_not_wait_for_ever_before_an_item_alone() -> None:
+    alone, rng = table([["cup"]]), np.random.default_rng(0)
+    assert AlwaysAsk().decide(alone, Belief([1.0]), None, rng=rng).action == Point(0)
+    assert AlwaysAsk().decide(alone, Belief([1.0]), 0, rng=rng).action == Pick(0)
 
 
 def test_never_ask_never_asks_and_does_not_value_it() -> None:

@@ -168,6 +168,17 @@ def test_sparse_sampling_of_three_actions_nears_enumeration(asked: int | None) -
     assert found.point.tolist() == pytest.approx(expected.point, abs=0.25)
 
 
+@pytest.mark.parametrize("depth", [2, 3, 4])
+@pytest.mark.parametrize("asked", [None, 0, 2])
+def test_sparse_sampling_is_exact_where_evenly_spread_draws_are(depth: int, asked: int | None) -> None:
+    """Certain and truthful answers depend on the desired item alone, and twelve even draws hold each item's share."""
+    problem = twins(3, p_l=1 - 1e-9, p_truth=1.0)
+    found = decided(SparseSampling(depth=depth, width=12), problem, [0.5, 0.25, 0.25], asked)
+    expected = action_values([0.5, 0.25, 0.25], asked, depth, world_of(problem))
+    assert found.wait == pytest.approx(expected.wait, abs=1e-6)
+    assert found.point.tolist() == pytest.approx(expected.point, abs=1e-6)
+
+
 # A problem where words do matter, small enough to enumerate.
 
 WORDY = [

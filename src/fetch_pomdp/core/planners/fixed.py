@@ -59,7 +59,7 @@ class AlwaysAsk:
         probabilities = belief.probabilities
         item = int(probabilities.argmax())
         action: Action = Point(item)
-        if np.ptp(probabilities) < 1e-9:
+        if len(probabilities) > 1 and np.ptp(probabilities) < 1e-9:
             action = Wait()
         elif asked is not None and probabilities[item] >= self.confidence:
             action = Pick(item)

@@ -1,0 +1,319 @@
+"""One interaction on the clock of its streams, with ears, eyes and a robot written here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import pytest
+from numpy.random import Generator
+
+from fetch_pomdp.core.action import Action, Pick, Point, Wait
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.gesture import angles
+from fetch_pomdp.core.interaction import Timing, interact, median_ray, pointing_arm
+from fetch_pomdp.core.planners.base import Decision, pick_values, unvalued
+from fetch_pomdp.core.ports import Frame, Outcome, Word
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Item
+from fetch_pomdp.errors import ModelError
+
+HEAD = (0.0, 0.0, 1.6)
+
+
+class Script:
+    """A planner that follows a list of actions and picks item 0 after it; it notes when i_r was what."""
+
+    def __init__(self, *actions: Action) -> None:
+        self.actions, self.asked = list(actions), list[int | None]()
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+        del rng
+        self.asked.append(asked)
+        action = self.actions[len(self.asked) - 1] if len(self.asked) <= len(self.actions) else Pick(0)
+        return Decision(action, 0.0, unvalued(problem), pick_values(belief.probabilities, problem))
+
+
+class Ears:
+    """Words with their times; each is heard once."""
+
+    def __init__(self, *words: tuple[str, float]) -> None:
+        self.words = [Word(text, end - 0.1, end) for text, end in words]
+        self.asked_until: list[float] = []
+
+    def hear(self, until: float) -> Sequence[Word]:
+        self.asked_until.append(until)
+        heard = [word for word in self.words if word.end <= until]
+        self.words = self.words[len(heard) :]
+        return heard
+
+
+class Eyes:
+    """Frames with their times; each is seen once."""
+
+    def __init__(self, *frames: Frame) -> None:
+        self.frames = list(frames)
+
+    def see(self, until: float) -> Sequence[Frame]:
+        seen = [frame for frame in self.frames if frame.time <= until]
+        self.frames = self.frames[len(seen) :]
+        return seen
+
+
+class Arm:
+    """A robot whose actions end as told; DONE after that."""
+
+    def __init__(self, *outcomes: Outcome) -> None:
+        self.outcomes, self.done = list(outcomes), list[str]()
+
+    def _act(self, what: str) -> Outcome:
+        self.done.append(what)
+        return self.outcomes.pop(0) if self.outcomes else Outcome.DONE
+
+    def point(self, item: Item) -> Outcome:
+        return self._act(f"point {item.id}")
+
+    def pick(self, item: Item) -> Outcome:
+        return self._act(f"pick {item.id}")
+
+    def say(self, text: str) -> Outcome:
+        self.done.append(f"say {text}")
+        return Outcome.DONE
+
+    def stop(self) -> None:
+        self.done.append("stop")
+
+
+def run(
+    script: Script, ears: Ears | None = None, eyes: Eyes | None = None, arm: Arm | None = None
+) -> tuple[Agent, list[Event]]:
+    agent = Agent("ambiguous", script)
+    return agent, list(interact(agent, arm or Arm(), ears, eyes))
+
+
+def observed(events: list[Event]) -> list[Observed]:
+    return [event for event in events if isinstance(event, Observed)]
+
+
+def acted(events: list[Event]) -> list[Acted]:
+    return [event for event in events if isinstance(event, Acted)]
+
+
+def frame(time: float, *wrists: tuple[float, float, float], head: tuple[float, float, float] = HEAD) -> Frame:
+    return Frame(time, head, wrists)
+
+
+def towards(x: float, z: float = 0.75) -> tuple[float, float, float]:
+    """A wrist 0.7 m ahead on the ray from HEAD to (x, 3.2, z)."""
+    return (x * 0.2, 3.2 * 0.2, 1.6 + (z - 1.6) * 0.2)
+
+
+def test_words_land_in_the_step_in_which_they_end() -> None:
+    ears = Ears(("bowl", 0.4), ("black", 1.0), ("marker", 1.01), ("green", 2.9))
+    _, events = run(Script(Wait(), Wait(), Wait()), ears)
+    assert [event.observation.words for event in observed(events)] == [("bowl", "black"), ("marker",), ("green",)]
+    assert [event.time for event in events] == [0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0]
+    assert [event.words[0].text for event in observed(events)] == ["bowl", "marker", "green"]
+
+
+def test_an_answer_after_the_question_is_read_with_it() -> None:
+    agent, events = run(Script(Point(2)), Ears(("no", 2.5)))
+    assert [event.observation.words for event in observed(events)] == [("no",)]
+    assert [event.time for event in events] == [pytest.approx(1.8), pytest.approx(2.8), pytest.approx(2.8)]
+    assert agent.belief[2] < 0.01
+
+
+def test_an_answer_before_the_question_has_ended_is_read_with_the_one_before() -> None:
+    agent, events = run(Script(Point(2), Point(4)), Ears(("no", 2.8 + 1.7), ("yes", 2.8 + 2.0)))
+    assert [type(event).__name__ for event in events] == ["Acted", "Observed", "Observed", "Acted", "Observed", "Acted"]
+    early, late = observed(events)[1:]
+    assert early.observation.words == ("no",)
+    assert early.time == pytest.approx(4.6)
+    assert late.observation.words == ("yes",)
+    assert agent.belief[2] < 0.01, "'no' was about item 2"
+    assert agent.belief[4] > 0.9, "'yes' is about item 4"
+
+
+def test_an_early_answer_to_nothing_moves_nothing() -> None:
+    agent, events = run(Script(Point(2)), Ears(("no", 1.0)))
+    assert observed(events)[0].observation.words == ("no",)
+    assert agent.belief == pytest.approx([1 / 6] * 6)
+
+
+def test_without_early_words_there_is_no_early_observation() -> None:
+    _, events = run(Script(Point(2), Point(3)), Ears())
+    assert [type(event).__name__ for event in events] == ["Acted", "Observed", "Acted", "Observed", "Acted"]
+
+
+def test_words_are_tokenized() -> None:
+    _, events = run(Script(Wait()), Ears(("The MARKER,", 0.5)))
+    assert observed(events)[0].observation.words == ("the", "marker")
+
+
+def test_after_the_end_of_the_streams_there_is_silence() -> None:
+    agent, events = run(Script(*[Wait()] * 4))
+    assert all(event.observation.words == () and event.observation.ray is None for event in observed(events))
+    assert len(observed(events)) == 4
+    assert agent.belief == pytest.approx([1 / 6] * 6)
+
+
+def test_times_are_parameters() -> None:
+    agent, ears = Agent("ambiguous", Script(Wait(), Point(1))), Ears()
+    events = list(interact(agent, Arm(), ears, None, timing=Timing(wait=0.5, question=2.0)))
+    assert [event.time for event in events] == pytest.approx([0.0, 0.5, 2.0, 2.5, 2.5])
+    assert ears.asked_until == pytest.approx([0.5, 2.0, 2.5])
+
+
+@pytest.mark.parametrize(("wait", "question"), [(0.0, 1.0), (-1.0, 1.0), (1.0, 0.9), (math.nan, 1.0), (1.0, math.inf)])
+def test_times_that_are_none(wait: float, question: float) -> None:
+    with pytest.raises(ModelError, match=r"^timing: found wait"):
+        Timing(wait=wait, question=question)
+
+
+def test_frames_of_a_step_become_one_ray() -> None:
+    eyes = Eyes(*[frame(0.1 * k, towards(0.075)) for k in range(1, 11)], frame(1.05, towards(-0.375)))
+    agent, events = run(Script(Wait(), Wait()), None, eyes)
+    first, second = (event.observation.ray for event in observed(events))
+    assert first is not None
+    assert second is not None
+    assert angles(first, agent.problem)[3] < 1e-9
+    assert angles(second, agent.problem)[0] < 1e-9
+
+
+def test_frames_during_a_question_belong_to_its_step() -> None:
+    eyes = Eyes(frame(0.5, towards(0.075)), frame(2.0, towards(0.075)))
+    _, events = run(Script(Point(0)), Ears(("marker", 0.4)), eyes)
+    early, late = observed(events)
+    assert early.observation.ray is None
+    assert late.observation.ray is not None
+
+
+# Frames to a ray.
+
+PROBLEM = Agent("ambiguous").problem
+
+
+def test_median_of_pointing_frames_ignores_a_stray_one() -> None:
+    steady = [frame(0.1 * k, towards(0.075)) for k in range(4)]
+    stray = frame(0.9, towards(-0.375))
+    ray = median_ray([*steady, stray], PROBLEM)
+    assert ray is not None
+    assert angles(ray, PROBLEM)[3] < 1e-9
+
+
+def test_median_of_directions_not_of_lengths() -> None:
+    # The arm in the middle is four times as long; of each coordinate of plain arms, the median would point at item 4.
+    x, y, z = (h + 4 * (w - h) for h, w in zip(HEAD, towards(0.075), strict=True))
+    ray = median_ray([frame(0, towards(-0.375)), frame(0, (x, y, z)), frame(0, towards(0.375))], PROBLEM)
+    assert ray is not None
+    assert angles(ray, PROBLEM)[3] < 0.01
+
+
+def test_median_follows_a_moving_head() -> None:
+    moved = (1.0, 0.0, 1.6)
+    wrist = tuple(h + 0.2 * (p - h) for h, p in zip(moved, (0.375, 3.2, 0.75), strict=True))
+    ray = median_ray([frame(0, (wrist[0], wrist[1], wrist[2]), head=moved)] * 3, PROBLEM)
+    assert ray is not None
+    assert ray.head == moved
+    assert angles(ray, PROBLEM)[5] < 1e-9
+
+
+def test_frames_that_do_not_point_do_not_count() -> None:
+    down = (0.2, 0.0, 0.9)
+    assert median_ray([frame(0, down)] * 5, PROBLEM) is None
+    assert median_ray([], PROBLEM) is None
+    ray = median_ray([*[frame(0, down)] * 5, frame(0, towards(0.375))], PROBLEM)
+    assert ray is not None
+    assert angles(ray, PROBLEM)[5] < 1e-9
+
+
+def test_the_arm_that_points_best_counts_whichever_it_is() -> None:
+    down, up = (0.2, 0.0, 0.9), towards(-0.225)
+    for wrists in ((down, up), (up, down), (towards(-0.225, z=1.0), up), (up, towards(-0.225, z=1.0))):
+        ray = pointing_arm(frame(0, *wrists), PROBLEM)
+        assert ray is not None
+        assert ray.wrist == up
+    assert pointing_arm(Frame(0, HEAD, ()), PROBLEM) is None
+
+
+def test_opposed_rays_that_cancel_are_no_gesture() -> None:
+    wide = Agent("ambiguous", model={"gesture_threshold": math.pi}).problem
+    assert median_ray([frame(0, (1.0, 0.0, 1.6)), frame(0, (-1.0, 0.0, 1.6))], wide) is None
+
+
+# Robots that fail.
+
+
+@pytest.mark.parametrize("outcome", [Outcome.FAILED, Outcome.STOPPED])
+def test_a_pick_that_was_not_done_is_resumed(outcome: Outcome) -> None:
+    arm = Arm(outcome)
+    agent, events = run(Script(Pick(1), Wait(), Pick(3)), Ears(("marker", 0.5)), arm=arm)
+    assert arm.done[0] == "pick bowl-2"
+    assert arm.done[1].startswith("say ")
+    assert arm.done[2:] == ["pick marker-2"]
+    assert [event.outcome for event in acted(events)] == [outcome, Outcome.DONE, Outcome.DONE]
+    assert observed(events)[0].observation.words == ("marker",)
+    assert agent.belief[3] > 0.3
+
+
+@pytest.mark.parametrize("outcome", [Outcome.FAILED, Outcome.STOPPED])
+def test_a_question_that_was_not_done_does_not_set_i_r(outcome: Outcome) -> None:
+    script = Script(Point(1), Wait())
+    agent, events = run(script, Ears(("no", 2.5)), arm=Arm(outcome))
+    assert script.asked == [None, None, None]
+    assert agent.belief == pytest.approx([1 / 6] * 6)
+    assert acted(events)[0].outcome is outcome
+
+
+def test_a_question_that_was_not_done_keeps_the_one_before() -> None:
+    script = Script(Point(1), Point(2))
+    agent, _ = run(script, Ears(("no", 5.5)), arm=Arm(Outcome.DONE, Outcome.FAILED))
+    assert script.asked == [None, 1, 1]
+    assert agent.belief[1] < 0.01
+    assert agent.belief[2] > 0.15
+
+
+def test_it_ends_after_thirty_waits_and_questions() -> None:
+    script = Script(*[Wait()] * 40)
+    _, events = run(script)
+    assert len(acted(events)) == len(observed(events)) == 30
+    assert len(script.asked) == 31, "a pick would still have been carried out"
+
+
+def test_a_pick_after_thirty_steps_is_carried_out() -> None:
+    _, events = run(Script(*[Wait()] * 30))
+    assert acted(events)[-1].action == Pick(0)
+    assert len(acted(events)) == 31
+
+
+def test_a_pick_that_always_fails_ends_too() -> None:
+    _, events = run(Script(), arm=Arm(*[Outcome.FAILED] * 100))
+    assert len(acted(events)) == 31
+
+
+def test_events_come_as_they_happen() -> None:
+    agent, arm = Agent("ambiguous", Script(Wait(), Point(2))), Arm()
+    events = interact(agent, arm, Ears(), None)
+    next(events)
+    assert arm.done == []
+    next(events)
+    next(events)
+    assert arm.done == ["point marker-1"]
+    assert agent.asked == 2
+
+
+def test_decisions_are_in_the_events() -> None:
+    _, events = run(Script(Wait()))
+    for event in acted(events):
+        assert event.decision is not None
+        assert event.decision.action == event.action
+
+
+def test_our_planner_hands_over_what_was_said_and_shown() -> None:
+    agent, arm = Agent("ambiguous", model={"sigma": 0.02}), Arm()
+    ears, eyes = Ears(("marker", 0.5)), Eyes(*[frame(0.1 * k, towards(0.075)) for k in range(1, 10)])
+    events = list(interact(agent, arm, ears, eyes))
+    assert acted(events)[-1].action == Pick(3)
+    assert arm.done == ["pick marker-2"]

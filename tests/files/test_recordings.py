@@ -1,0 +1,331 @@
+"""Recorded interactions: written and read back, replayed, and refused where they cannot be one."""
+
+from __future__ import annotations
+
+import dataclasses
+import io
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fetch_pomdp.core.action import Action, Pick, Point, Wait
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.model import Model, Rewards
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.catalogue import DEFAULT
+from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fixed import NeverAsk
+from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.ports import Outcome, Word
+from fetch_pomdp.core.scene import Item, Scene
+from fetch_pomdp.errors import BeliefError, EventError, InputError
+from fetch_pomdp.files.events import event_from_json, event_to_json
+from fetch_pomdp.files.header import Header, header_from_json, header_to_json
+from fetch_pomdp.files.recordings import EventLog, read_recording
+
+SCENE = Scene.load("ambiguous")
+TABLE = Scene(
+    items=(
+        Item(id="Tasse à thé", position=(0.0, 2.0, 0.75), vocabulary=("cup",)),
+        Item(id="pot", position=(0.5, 2.0, 0.75), vocabulary=("pot", "tea")),
+    ),
+    head=(0.1, 0.0, 1.7),
+)
+
+# Round trips.
+
+times = st.none() | st.integers(0, 100_000).map(lambda ms: ms / 1000)
+items = st.integers(0, 5)
+actions: st.SearchStrategy[Action] = st.just(Wait()) | st.builds(Point, items) | st.builds(Pick, items)
+texts = st.lists(st.sampled_from(["marker", "yes", "löffel", "it's", "left", "7"]), max_size=4).map(tuple)
+coordinates = st.floats(-10, 10)
+points = st.tuples(coordinates, coordinates, coordinates)
+rays = st.none() | st.tuples(points, points).filter(
+    lambda pair: sum(abs(a - b) for a, b in zip(*pair, strict=True)) > 0.1
+).map(lambda pair: Ray(*pair))
+words = st.lists(
+    st.builds(Word, st.sampled_from(["marker", "uh"]), coordinates, coordinates, st.floats(0, 1)), max_size=3
+)
+events: st.SearchStrategy[Event] = st.builds(
+    Observed, st.builds(Observation, texts, rays), words.map(tuple), times
+) | st.builds(Acted, actions, st.sampled_from(Outcome), st.none(), times)
+
+
+@given(event=events)
+def test_events_survive_a_round_trip(event: Event) -> None:
+    line = json.dumps(event_to_json(event, SCENE))
+    found = event_from_json(json.loads(line), SCENE)
+    if isinstance(event, Observed) and event.words and not event.observation.words:
+        assert isinstance(found, Observed)
+        assert found.words == event.words, "an utterance of null is that of its words"
+    else:
+        assert found == event
+
+
+headers = [
+    Header(scene=SCENE, scene_name="ambiguous"),
+    Header(scene=TABLE, planner="sparse", parameters={"depth": 3}, seed=7, target="pot"),
+    Header(
+        scene=dataclasses.replace(
+            TABLE, model=Model(sigma=0.2, gesture_likelihood="exact"), rewards=Rewards(wait=-0.5, point=-5.0)
+        )
+    ),
+]
+
+
+@pytest.mark.parametrize("header", headers)
+def test_headers_survive_a_round_trip(header: Header) -> None:
+    assert header_from_json(json.loads(json.dumps(header_to_json(header)))) == header
+
+
+def test_a_header_says_only_what_is_not_by_default() -> None:
+    header = Header(scene=dataclasses.replace(SCENE, model=Model(sigma=0.2)), scene_name="ambiguous")
+    assert header_to_json(header) == {
+        "scene": "ambiguous", "version": 1, "model": {"sigma": 0.2}, "planner": DEFAULT, "seed": 0,
+    }  # fmt: skip
+
+
+class CountingStream(io.StringIO):
+    flushed = 0
+
+    def flush(self) -> None:
+        self.flushed += 1
+
+
+def test_every_line_of_a_log_is_flushed() -> None:
+    stream = CountingStream()
+    log = EventLog(stream, headers[0])
+    log.write(Acted(Wait()))
+    log.write(Acted(Pick(2), Outcome.FAILED, None, 1.23456))
+    assert stream.flushed == 3
+    assert [json.loads(line) for line in stream.getvalue().splitlines()][1:] == [
+        {"action": "wait"},
+        {"action": "pick", "item": "marker-1", "outcome": "failed", "t": 1.235},
+    ]
+
+
+def test_a_log_on_disk_is_read_back(tmp_path: Path) -> None:
+    path = tmp_path / "log.jsonl"
+    log = EventLog.create(path, headers[1])
+    written: list[Event] = [
+        Acted(Wait(), time=0.0),
+        Observed(Observation(("the", "tea", "löffel"), Ray((0.0, 0.0, 1.6), (0.0, 1.0, 1.3))), (), 1.0),
+        Acted(Point(0), Outcome.FAILED),
+        Acted(Pick(1)),
+    ]
+    for event in written:
+        log.write(event)
+    recording = read_recording(path)
+    assert recording.header == headers[1]
+    assert list(recording.events) == written
+    assert recording.over
+    with pytest.raises(EventError, match="found a file there already, expected a new one"):
+        EventLog.create(path, headers[1])
+    with pytest.raises(EventError, match=r"cannot be written: .*, expected a folder for it"):
+        EventLog.create(tmp_path / "none" / "log.jsonl", headers[1])
+
+
+def test_a_replay_is_the_life_of_the_agent(tmp_path: Path) -> None:
+    lines: list[dict[str, Any]] = [
+        {"scene": "ambiguous", "planner": {"name": "sparse", "depth": 3, "width": 2}, "seed": 5},
+        {"action": "wait"},
+        {"observation": {"utterance": "The marker!"}},
+        {"action": "point", "item": "marker-1"},
+        {"observation": {"utterance": "no", "head": [0, 0, 1.6], "wrist": [0, 1, 1.3]}},
+        {"action": "pick", "item": "marker-2", "outcome": "stopped"},
+        {"observation": {"utterance": None}},
+    ]
+    recording = read_recording(written(tmp_path, lines))
+    agent = recording.header.agent()
+    assert agent.planner == SparseSampling(3, 2)
+    assert agent.seed == 5
+    assert list(recording.replay(agent)) == list(recording.events)
+    live = Agent("ambiguous", SparseSampling(3, 2), seed=5)
+    live.did(Wait())
+    live.observe("the marker")
+    live.did(Point(2))
+    live.observe("no", head=(0, 0, 1.6), wrist=(0, 1, 1.3))
+    live.observe()
+    assert agent.belief == pytest.approx(live.belief)
+    assert agent.asked == live.asked == 2
+    assert agent.decide().action == live.decide().action
+    assert agent.decide().wait == live.decide().wait
+    assert not recording.over
+
+
+def test_an_impossible_event_is_named_by_its_line(tmp_path: Path) -> None:
+    lines = [
+        {"scene": "ambiguous", "model": {"p_truth": 1.0}},
+        {"action": "point", "item": "bowl-1"},
+        {"observation": {"utterance": "yes"}},
+        {"observation": {"utterance": "no"}},
+    ]
+    path = written(tmp_path, lines)
+    recording = read_recording(path)
+    with pytest.raises(BeliefError) as caught:
+        list(recording.replay(recording.header.agent()))
+    assert str(caught.value).startswith(f"{path}:4: observation: found")
+    assert "bowl-1" in str(caught.value)
+
+
+def test_what_is_given_replaces_the_recorded_planner() -> None:
+    header = headers[1]  # sparse, depth 3, seed 7
+    assert header.agent().planner == SparseSampling(3)
+    assert header.agent(width=4, depth=None).planner == SparseSampling(3, 4)
+    assert header.agent(planner="never").planner == NeverAsk(), "another planner's parameters are not its own"
+    assert header.agent(planner="exact", depth=2).planner == ExactAnswers(2)
+    assert header.agent(seed=0).seed == 0
+    assert header.agent().seed == 7
+
+
+def test_words_speak_where_there_is_no_utterance() -> None:
+    timed = [{"text": "Marker", "start": 0, "end": 0.5}, {"text": "please", "start": 0.5, "end": 1, "posterior": 0.4}]
+    found = event_from_json({"observation": {"words": timed}, "t": 1}, SCENE)
+    assert found == Observed(
+        Observation(("marker", "please")), (Word("Marker", 0.0, 0.5), Word("please", 0.5, 1.0, 0.4)), 1.0
+    )
+    both = event_from_json({"observation": {"utterance": "bowl", "words": timed}}, SCENE)
+    assert isinstance(both, Observed)
+    assert both.observation.words == ("bowl",)
+
+
+# What cannot be a recording.
+
+
+def written(tmp_path: Path, lines: Sequence[object]) -> Path:
+    path = tmp_path / "events.jsonl"
+    path.write_text("".join(json.dumps(line) + "\n" for line in lines))
+    return path
+
+
+ONE_ITEM = {"id": "cup", "position": [0, 1, 0], "vocabulary": ["cup"]}
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({}, "scene: found no such field"),
+        ({"scene": "ambigous"}, "scene: found 'ambigous', expected one of ambiguous, unambiguous, or an object"),
+        ({"scene": "table.toml"}, "scene: found 'table.toml', expected one of"),
+        ({"scene": 3}, "scene: found 3, expected a table of named fields"),
+        ({"scene": {"head": [0, 0, 1]}}, "scene.items: found no such field"),
+        ({"scene": {"head": [0, 0, 1], "items": []}}, "scene.items: found no items"),
+        ({"scene": {"head": [0, 0, 1], "items": [ONE_ITEM], "model": {}}}, "scene.model: unknown field"),
+        ({"scene": {"head": [0, 0, float("nan")], "items": [ONE_ITEM]}}, "scene.head: found nan"),
+        (
+            {"scene": {"head": [0, 0, 1], "items": [ONE_ITEM, ONE_ITEM]}},
+            "scene.items[1].id: found 'cup', which items[0]",
+        ),
+        ({"scene": {"head": [0, 0, 1], "items": [{**ONE_ITEM, "id": "\ud800"}]}}, "scene.items[0].id: found '\\ud800'"),
+        (
+            {"scene": {"head": [0, 0, 1], "items": [{**ONE_ITEM, "vocabulary": []}]}},
+            "scene.items[0].vocabulary: found []",
+        ),
+        ({"scene": "ambiguous", "version": 2}, "version: found 2, expected 1"),
+        ({"scene": "ambiguous", "version": True}, "version: found True, expected 1"),
+        ({"scene": "ambiguous", "version": None}, "version: found None, expected 1"),
+        ({"scene": "ambiguous", "model": {"sigma": -1}}, "model.sigma: found -1, expected an angle above 0"),
+        ({"scene": "ambiguous", "model": {"sigma": float("inf")}}, "model.sigma: found inf"),
+        ({"scene": "ambiguous", "model": {"sgma": 1}}, "model.sgma: unknown parameter"),
+        ({"scene": "ambiguous", "model": [1]}, "model: found [1], expected a table"),
+        ({"scene": "ambiguous", "rewards": {"wait": 1}}, "rewards.wait: found 1"),
+        (
+            {"scene": "ambiguous", "planner": "exakt"},
+            "planner: found 'exakt', expected one of exact, sparse, never, always",
+        ),
+        ({"scene": "ambiguous", "planner": {"name": "exact", "dept": 2}}, "planner.dept: unknown parameter of planner"),
+        ({"scene": "ambiguous", "planner": {"name": "exact", "depth": 0}}, "planner.depth: found 0"),
+        ({"scene": "ambiguous", "planner": {"name": 3}}, "planner: found 3, expected a planner's name"),
+        ({"scene": "ambiguous", "planner": None}, "planner: found None"),
+        ({"scene": "ambiguous", "seed": -1}, "seed: found -1, expected a whole number from 0"),
+        ({"scene": "ambiguous", "seed": 1.0}, "seed: found 1.0"),
+        ({"scene": "ambiguous", "seed": 2**63}, "seed: found 9223372036854775808"),
+        ({"scene": "ambiguous", "target": "cup"}, "target: found 'cup', expected one of bowl-1, bowl-2"),
+        ({"scene": "ambiguous", "target": 0}, "target: found 0, expected the id of an item"),
+        ({"scene": "ambiguous", "sead": 1}, "sead: unknown field, expected one of scene, model"),
+    ],
+)
+def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: str) -> None:
+    path = written(tmp_path, [fields])
+    with pytest.raises(InputError) as caught:
+        read_recording(path)
+    assert str(caught.value).startswith(f"{path}:1: {message}")
+    assert "expected" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({}, "observation: found no such field"),
+        ({"t": 1}, "observation: found no such field"),
+        ({"action": "wait", "observation": {}}, "action: found an observation too, expected a line for each"),
+        ({"action": "grab"}, "action: found 'grab', expected one of wait, point, pick"),
+        ({"action": None}, "action: found None"),
+        ({"action": ["wait"]}, "action: found ['wait']"),
+        ({"action": "wait", "item": "bowl-1"}, "item: found 'bowl-1', expected none: a wait is about no item"),
+        ({"action": "point"}, "item: found no such field"),
+        ({"action": "point", "item": "cup"}, "item: found 'cup', expected one of bowl-1"),
+        ({"action": "pick", "item": 0}, "item: found 0, expected the id of an item"),
+        (
+            {"action": "pick", "item": "bowl-1", "outcome": "lost"},
+            "outcome: found 'lost', expected one of done, failed, stopped",
+        ),
+        ({"action": "pick", "item": "bowl-1", "outcome": None}, "outcome: found None"),
+        ({"action": "wait", "t": "now"}, "t: found 'now', expected a time in seconds"),
+        ({"action": "wait", "t": float("nan")}, "t: found nan"),
+        ({"action": "wait", "utterance": "x"}, "utterance: unknown field"),
+        ({"observation": None}, "observation: found None, expected a table"),
+        ({"observation": {"utterence": "x"}}, "observation.utterence: unknown field"),
+        ({"observation": {"utterance": 3}}, "observation.utterance: found 3, expected text or null"),
+        ({"observation": {"head": [0, 0, 1]}}, "observation.wrist: found none, expected head and wrist, or neither"),
+        ({"observation": {"wrist": [0, 0, 1]}}, "observation.head: found none"),
+        ({"observation": {"head": [0, 0, 1], "wrist": [0, 0, 1]}}, "observation.wrist: found the position of the head"),
+        ({"observation": {"head": [0, 0, 1], "wrist": [0, float("nan"), 1]}}, "observation.wrist: found nan"),
+        ({"observation": {"head": [0, 0], "wrist": [0, 1, 1]}}, "observation.head: found [0, 0]"),
+        ({"observation": {"words": "marker"}}, "observation.words: found 'marker', expected a list of words"),
+        ({"observation": {"words": [3]}}, "observation.words[0]: found 3"),
+        ({"observation": {"words": [{"text": "a", "start": 0}]}}, "observation.words[0].end: found no such field"),
+        ({"observation": {"words": [{"text": "", "start": 0, "end": 1}]}}, "observation.words[0].text: found ''"),
+        (
+            {"observation": {"words": [{"text": "a", "start": 0, "end": 1, "posterior": 2}]}},
+            "observation.words[0].posterior: found 2, expected a probability",
+        ),
+        ({"observation": {}, "time": 3}, "time: unknown field"),
+    ],
+)
+def test_events_that_are_none(tmp_path: Path, fields: dict[str, Any], message: str) -> None:
+    path = written(tmp_path, [{"scene": "ambiguous"}, {"action": "wait"}, fields])
+    with pytest.raises(InputError) as caught:
+        read_recording(path)
+    assert str(caught.value).startswith(f"{path}:3: {message}")
+    assert "expected" in str(caught.value)
+
+
+@pytest.mark.parametrize("following", [{"observation": {"utterance": "no"}}, {"action": "wait"}])
+def test_nothing_follows_a_pick_that_was_done(tmp_path: Path, following: dict[str, Any]) -> None:
+    start: list[dict[str, Any]] = [{"scene": "ambiguous"}, {"action": "pick", "item": "bowl-1"}]
+    path = written(tmp_path, [*start, following])
+    with pytest.raises(EventError) as caught:
+        read_recording(path)
+    assert str(caught.value).startswith(f"{path}:3: found an event after a pick that was done, expected the end")
+    refused: dict[str, Any] = {"action": "pick", "item": "bowl-1", "outcome": "failed"}
+    assert len(read_recording(written(tmp_path, [start[0], refused, following])).events) == 2
+
+
+def test_an_empty_file(tmp_path: Path) -> None:
+    path = written(tmp_path, [])
+    with pytest.raises(EventError, match="found an empty file, expected a first line with the scene"):
+        read_recording(path)
+
+
+def test_a_file_with_a_header_alone(tmp_path: Path) -> None:
+    recording = read_recording(written(tmp_path, [{"scene": "unambiguous"}]))
+    assert recording.events == ()
+    assert recording.header.agent().belief == pytest.approx([1 / 6] * 6)
