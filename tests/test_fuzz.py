@@ -161,7 +161,7 @@ def read_scene(path: Path) -> None:
 @pytest.mark.parametrize("read", [read_log, read_skeleton, read_scene])
 @given(content=st.binary(max_size=200))
 @fuzz
-def test_random_bytes(tmp_path: Path, read: Any, content: bytes) -> None:  # noqa: ANN401
+def test_random_bytes(tmp_path: Path, read: Any, content: bytes) -> None:
     path = tmp_path / "input.toml"
     path.write_bytes(content)
     read(path)

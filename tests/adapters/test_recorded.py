@@ -17,7 +17,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import MissingExtraError, SkeletonError
 
 
-def line(**fields: Any) -> bytes:  # noqa: ANN401
+def line(**fields: Any) -> bytes:
     return json.dumps(fields).encode() + b"\n"
 
 
