@@ -20,7 +20,7 @@ lint: .venv/tested
 
 # Compiled code leaves no trace in a coverage report, so the core is measured in a second short run without compilation.
 coverage: .venv/tested
-	NUMBA_DISABLE_JIT=1 $(BIN)/pytest tests/core -m 'not slow' --cov=fetch_pomdp.core --cov-report=term --cov-fail-under=95
+	NUMBA_DISABLE_JIT=1 $(BIN)/pytest tests/core -m 'not slow' --cov=src/fetch_pomdp/core --cov-report=term --cov-fail-under=95
 
 bench: .venv/tested
 	$(BIN)/pip install -q -r requirements/bench.txt
