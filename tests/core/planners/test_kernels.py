@@ -75,6 +75,22 @@ def test_pointing_has_the_moments_of_the_oracle(likelihood: str, desired: int) -
     assert found.sum(axis=1) == pytest.approx(np.ones(draws))
 
 
+@pytest.mark.parametrize("desired", [0, 2])
+def test_exact_pointing_learns_from_no_gesture(desired: int) -> None:
+    """An item alone is missed more often than two near one another: silence of the arm speaks for it."""
+    places = [(-2.0, 0.5, 1.2), (0.5, 2.0, 1.2), (0.9, 1.8, 1.2)]
+    problem = table([["cup"]] * 3, places=places, p_g=0.9, sigma=0.3, gesture_likelihood="exact")
+    world, draws = world_of(problem), 4_000
+    items, rng = brute.directions(world.head, world.places), np.random.default_rng(2)
+    null = [1 - 0.9 * (1 - brute.miss_chance(items, item, 0.3, 0.3, rng)[0]) for item in range(3)]
+    joint = np.array(PRIOR) * null
+    expected = joint / joint.sum()
+    assert abs(expected[0] - PRIOR[0]) > 0.03
+    same = np.abs(heard(problem, desired, draws) - expected).max(axis=1) < 2e-3
+    error = math.sqrt(null[desired] * (1 - null[desired]) / draws)
+    assert abs(same.mean() - null[desired]) <= 4 * error + 2e-3
+
+
 def test_exact_pointing_leaves_the_belief_where_it_was_on_average() -> None:
     problem = table(VOCABULARIES, places=PLACES, p_g=0.7, sigma=0.2, gesture_likelihood="exact")
     draws, total, variance = 8_000, np.zeros(3), np.zeros(3)
