@@ -75,6 +75,22 @@ def test_pointing_has_the_moments_of_the_oracle(likelihood: str, desired: int) -
     assert found.sum(axis=1) == pytest.approx(np.ones(draws))
 
 
+def test_pointing_has_the_spread_and_the_roll_of_the_model() -> None:
+    """With items ahead, behind, to the right and above, a posterior gives away its ray: Eq. 7 solved for the angles."""
+    sigma, draws = 0.4, 20_000
+    places = [(0.0, 1.0, 1.6), (0.0, -1.0, 1.6), (1.0, 0.0, 1.6), (0.0, 0.0, 2.6)]
+    problem = table([["cup"]] * 4, places=places, p_g=1 - 1e-9, sigma=sigma, gesture_threshold=math.pi)
+    found = heard(problem, 0, draws, [0.25] * 4)
+    gap = 2 * sigma**2 * np.log(found / found[:, :1])  # the square of the own angle less that of each item's
+    own = (math.pi**2 + gap[:, 1]) / (2 * math.pi)  # the one behind is at pi less the own angle
+    assert abs((own**2).mean() / sigma**2 - 1) <= 4 * math.sqrt(2 / draws)
+    assert abs(np.mean(own > 2 * sigma) - 0.0455) <= 4 * math.sqrt(0.0455 / draws)
+    sideways = np.cos(np.sqrt(own[:, None] ** 2 - gap[:, 2:])) / np.sin(own)[:, None]  # cosine and sine of the roll
+    assert (sideways**2).sum(axis=1) == pytest.approx(np.ones(draws), abs=1e-3)
+    assert np.abs(sideways.mean(axis=0)).max() <= 4 * math.sqrt(0.5 / draws)
+    assert np.abs((sideways**2).mean(axis=0) - 0.5).max() <= 4 * math.sqrt(0.125 / draws)
+
+
 @pytest.mark.parametrize("desired", [0, 2])
 def test_exact_pointing_learns_from_no_gesture(desired: int) -> None:
     """An item alone is missed more often than two near one another: silence of the arm speaks for it."""
