@@ -156,9 +156,10 @@ def test_more_samples_less_error(make: Callable[..., Planner]) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("make", SEARCHES)
-def test_stated_errors_are_those_found(make: Callable[..., Planner]) -> None:
+@pytest.mark.parametrize(("depth", "width", "seeds"), [(2, 40, 400), (3, 15, 300)])
+def test_stated_errors_are_those_found(make: Callable[..., Planner], depth: int, width: int, seeds: int) -> None:
     """Draws are spread evenly over the belief: the true error may be smaller than the one stated, never much larger."""
-    decisions = [decide(make(depth=2, width=40), AMBIGUOUS, LEADING, 2, seed) for seed in range(400)]
+    decisions = [decide(make(depth=depth, width=width), AMBIGUOUS, LEADING, 2, seed) for seed in range(seeds)]
     stated = float(np.mean([decision.wait_error for decision in decisions]))
     found = float(np.std([decision.wait for decision in decisions]))
     assert 0.3 * stated < found < 1.15 * stated

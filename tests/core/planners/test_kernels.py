@@ -75,6 +75,38 @@ def test_pointing_has_the_moments_of_the_oracle(likelihood: str, desired: int) -
     assert found.sum(axis=1) == pytest.approx(np.ones(draws))
 
 
+def test_pointing_has_the_spread_and_the_roll_of_the_model() -> None:
+    """With items ahead, behind, to the right and above, a posterior gives away its ray: Eq. 7 solved for the angles."""
+    sigma, draws = 0.4, 20_000
+    places = [(0.0, 1.0, 1.6), (0.0, -1.0, 1.6), (1.0, 0.0, 1.6), (0.0, 0.0, 2.6)]
+    problem = table([["cup"]] * 4, places=places, p_g=1 - 1e-9, sigma=sigma, gesture_threshold=math.pi)
+    found = heard(problem, 0, draws, [0.25] * 4)
+    gap = 2 * sigma**2 * np.log(found / found[:, :1])  # the square of the own angle less that of each item's
+    own = (math.pi**2 + gap[:, 1]) / (2 * math.pi)  # the one behind is at pi less the own angle
+    assert abs((own**2).mean() / sigma**2 - 1) <= 4 * math.sqrt(2 / draws)
+    assert abs(np.mean(own > 2 * sigma) - 0.0455) <= 4 * math.sqrt(0.0455 / draws)
+    sideways = np.cos(np.sqrt(own[:, None] ** 2 - gap[:, 2:])) / np.sin(own)[:, None]  # cosine and sine of the roll
+    assert (sideways**2).sum(axis=1) == pytest.approx(np.ones(draws), abs=1e-3)
+    assert np.abs(sideways.mean(axis=0)).max() <= 4 * math.sqrt(0.5 / draws)
+    assert np.abs((sideways**2).mean(axis=0) - 0.5).max() <= 4 * math.sqrt(0.125 / draws)
+
+
+@pytest.mark.parametrize("desired", [0, 2])
+def test_exact_pointing_learns_from_no_gesture(desired: int) -> None:
+    """An item alone is missed more often than two near one another: silence of the arm speaks for it."""
+    places = [(-2.0, 0.5, 1.2), (0.5, 2.0, 1.2), (0.9, 1.8, 1.2)]
+    problem = table([["cup"]] * 3, places=places, p_g=0.9, sigma=0.3, gesture_likelihood="exact")
+    world, draws = world_of(problem), 4_000
+    items, rng = brute.directions(world.head, world.places), np.random.default_rng(2)
+    null = [1 - 0.9 * (1 - brute.miss_chance(items, item, 0.3, 0.3, rng)[0]) for item in range(3)]
+    joint = np.array(PRIOR) * null
+    expected = joint / joint.sum()
+    assert abs(expected[0] - PRIOR[0]) > 0.03
+    same = np.abs(heard(problem, desired, draws) - expected).max(axis=1) < 2e-3
+    error = math.sqrt(null[desired] * (1 - null[desired]) / draws)
+    assert abs(same.mean() - null[desired]) <= 4 * error + 2e-3
+
+
 def test_exact_pointing_leaves_the_belief_where_it_was_on_average() -> None:
     problem = table(VOCABULARIES, places=PLACES, p_g=0.7, sigma=0.2, gesture_likelihood="exact")
     draws, total, variance = 8_000, np.zeros(3), np.zeros(3)

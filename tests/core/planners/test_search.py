@@ -58,9 +58,12 @@ def test_exact_answers_equals_enumeration(depth: int, again: float, asked: int |
 @pytest.mark.parametrize("depth", [2, 3])
 @pytest.mark.parametrize("again", [1.0, 0.5, 0.0])
 @pytest.mark.parametrize("asked", [None, 0, 1, 2])
-def test_exact_answers_with_leaf_question_equals_enumeration(depth: int, again: float, asked: int | None) -> None:
-    problem = twins(3, p_answer_again=again, p_truth=0.9, p_l=0.6)
-    for belief in BELIEFS[:4] if depth < 3 else BELIEFS[1:3]:
+@pytest.mark.parametrize("person", [{"p_l": 0.95, "p_truth": 0.99}, {"p_l": 0.6, "p_truth": 0.9}])
+def test_exact_answers_with_leaf_question_equals_enumeration(
+    depth: int, again: float, asked: int | None, person: dict[str, float]
+) -> None:
+    problem = twins(3, p_answer_again=again, **person)
+    for belief in BELIEFS if depth < 3 else BELIEFS[1:3]:
         found = decided(ExactAnswers(depth=depth, width=1, leaf="question"), problem, belief, asked)
         assert_equal(found, action_values(belief, asked, depth, world_of(problem), asking.question_leaf))
 
