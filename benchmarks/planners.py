@@ -29,7 +29,8 @@ Say = Callable[[str], None]
 def main() -> None:
     """Measure, print and save."""
     options = arguments()
-    missing = [name for module, name in NEEDED.items() if importlib.util.find_spec(module) is None]
+    needed = ("matplotlib",) if options.earlier else NEEDED
+    missing = [NEEDED[module] for module in needed if importlib.util.find_spec(module) is None]
     if missing:
         sys.exit(f"This benchmark needs {' and '.join(missing)}: pip install {' '.join(missing)}")
     from planning import plot, report

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from planning import Record
+from planning import DEFAULT, Record
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,7 +28,7 @@ STYLES = {
     "POUCT, random": ("x", "black", "-."),
 }
 SCALING = (
-    ("default", None, "ExactAnswers", "ExactAnswers, default"),
+    ("default", None, "ExactAnswers", DEFAULT),
     ("ExactAnswers, leaf pick", 10, "ExactAnswers, leaf pick", "ExactAnswers(2, 10), leaf pick"),
     ("SparseSampling", 10, "SparseSampling", "SparseSampling(2, 10)"),
     ("NeverAsk", 10, "NeverAsk", "NeverAsk(2, 10)"),

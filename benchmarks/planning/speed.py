@@ -1,7 +1,8 @@
 """Time of a decision against items, depth and width: the compiled kernel alone, and `decide` of the whole planner.
 
 Every decision is the first of an interaction: the belief is uniform and nothing was asked. Contestants take turns, and
-the best of several turns counts: on a shared machine all else measures the neighbours.
+the best of several turns counts. The time is the processor's, on one core: the wall's on an idle machine, and much the
+same on a busy one.
 """
 
 from __future__ import annotations
@@ -114,9 +115,9 @@ def cases(n_items: int, limit: float) -> Iterator[Case]:
 def timed(call: Callable[[int], object], once: float) -> float:
     """Return the time (s) of one of as many calls as fill a turn; `once` is a guess at it."""
     times = max(1, round(TURN / max(once, 1e-7)))
-    start = time.perf_counter()
+    start = time.process_time()
     call(times)
-    return (time.perf_counter() - start) / times
+    return (time.process_time() - start) / times
 
 
 def take_turn(case: Case, problem: Problem, belief: Belief, seed: int) -> None:
@@ -139,9 +140,9 @@ def decision_times(turns: int, limit: float, say: Callable[[str], None]) -> list
     """Measure every affordable case. limit: s, the longest decision that is measured."""
     records = []
     for n_items in ITEMS:
-        start = time.perf_counter()
+        start = time.process_time()
         problem = problem_of(n_items)
-        built = time.perf_counter() - start
+        built = time.process_time() - start
         belief, field_ = Belief.uniform(n_items), list(cases(n_items, limit))
         for case in field_[:4]:  # compiled and loaded before the clock starts
             case.loop(1, belief.probabilities, case.search._replace(width=1), 0, problem.tables)
@@ -149,9 +150,9 @@ def decision_times(turns: int, limit: float, say: Callable[[str], None]) -> list
         for turn in range(turns):
             for number, case in enumerate(field_):
                 if spent[number] < BUDGET:
-                    start = time.perf_counter()
+                    start = time.process_time()
                     take_turn(case, problem, belief, turn)
-                    spent[number] += time.perf_counter() - start
+                    spent[number] += time.process_time() - start
         records += [case.record() for case in field_]
         say(f"  {n_items} items: {len(field_)} cases (scene built in {built:.2f} s)")
     return records
