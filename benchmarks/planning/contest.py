@@ -67,12 +67,14 @@ def ours(problem: Problem) -> Iterator[Contestant]:
     yield Contestant(DEFAULT, "ExactAnswers", Timed(ExactAnswers()), 20_000)
     for depth, width, episodes in ((2, 10, 10_000), (2, 160, 10_000), (3, 10, 3_000)):
         name = f"ExactAnswers({depth}, {width})"
-        yield Contestant(name, "ExactAnswers", Timed(ExactAnswers(depth, width)), episodes)
+        family = "ExactAnswers" if depth == 2 else "ExactAnswers, depth 3"
+        yield Contestant(name, family, Timed(ExactAnswers(depth, width)), episodes)
     pick = Timed(ExactAnswers(2, 10, "pick"))
     yield Contestant("ExactAnswers(2, 10), leaf pick", "ExactAnswers, leaf pick", pick, 10_000)
     for depth, width, episodes in ((2, 10, 20_000), (2, 100, 5_000), (3, 10, 2_000)):
         name = f"SparseSampling({depth}, {width})"
-        yield Contestant(name, "SparseSampling", Timed(SparseSampling(depth, width)), episodes)
+        family = "SparseSampling" if depth == 2 else "SparseSampling, depth 3"
+        yield Contestant(name, family, Timed(SparseSampling(depth, width)), episodes)
     yield Contestant("NeverAsk", "NeverAsk", Timed(NeverAsk()), 20_000)
     yield Contestant("AlwaysAsk", "AlwaysAsk", Timed(AlwaysAsk()), 20_000)
     plain = Timed(PlainSparse(World(problem)))

@@ -113,7 +113,7 @@ def returns(records: list[Record], scene: str) -> str:
     rows = []
     field = [found for found in records if found["scene"] == scene]
     base = next(found["decide_median_s"] for found in field if found["planner"] == DEFAULT)
-    for found in sorted(field, key=lambda f: -f["mean_return"]):
+    for found in sorted(field, key=lambda f: -float(f["behind"])):
         behind = "" if found["planner"] == DEFAULT else f"{found['behind']:+.2f} +- {found['behind_error']:.2f}"
         rows.append((
             found["planner"],
