@@ -1,0 +1,165 @@
+"""Return and decision time of every planner, on the same people.
+
+Contestants take turns in ten rounds, so that a busy minute of the machine falls on all of them. The person of episode k
+draws from a stream of the seed and k alone, as in `fetch_pomdp.simulate`: differences between planners are paired.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.random import Generator
+
+from fetch_pomdp import (
+    AlwaysAsk,
+    Belief,
+    Decision,
+    ExactAnswers,
+    NeverAsk,
+    Planner,
+    Problem,
+    Scene,
+    SparseSampling,
+)
+from fetch_pomdp.core.simulation import Episode, run_episode
+from planning import DEFAULT, Record
+from planning.plain import PlainSparse, World
+from planning.uct import Style, Uct
+
+SCENES = ("ambiguous", "unambiguous")
+EXPLORATION = (5.0, 20.0, 60.0)  # of UCB1, in units of reward; a right pick and a wrong one are 22.5 apart
+ROUNDS = 10
+
+
+@dataclass(slots=True)
+class Timed:
+    """A planner, and how long its decisions took (s of processor time, on one core)."""
+
+    planner: Planner
+    times: list[float] = field(default_factory=list)
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+        """Pass the planner's decision on."""
+        start = time.process_time()
+        decision = self.planner.decide(problem, belief, asked, rng=rng)
+        self.times.append(time.process_time() - start)
+        return decision
+
+
+@dataclass(slots=True)
+class Contestant:
+    """A planner with a budget; `episodes` is how many the full run plays."""
+
+    name: str
+    family: str
+    planner: Timed
+    episodes: int
+    simulations: int = 0  # of POUCT, a decision
+    exploration: float = 0.0
+    played: list[Episode] = field(default_factory=list)
+
+
+def ours(problem: Problem) -> Iterator[Contestant]:
+    """Yield the package's planners and the plain sampler."""
+    yield Contestant(DEFAULT, "ExactAnswers", Timed(ExactAnswers()), 20_000)
+    for depth, width, episodes in ((2, 10, 10_000), (2, 160, 10_000), (3, 10, 3_000)):
+        name = f"ExactAnswers({depth}, {width})"
+        family = "ExactAnswers" if depth == 2 else "ExactAnswers, depth 3"
+        yield Contestant(name, family, Timed(ExactAnswers(depth, width)), episodes)
+    pick = Timed(ExactAnswers(2, 10, "pick"))
+    yield Contestant("ExactAnswers(2, 10), leaf pick", "ExactAnswers, leaf pick", pick, 10_000)
+    for depth, width, episodes in ((2, 10, 20_000), (2, 100, 5_000), (3, 10, 2_000)):
+        name = f"SparseSampling({depth}, {width})"
+        family = "SparseSampling" if depth == 2 else "SparseSampling, depth 3"
+        yield Contestant(name, family, Timed(SparseSampling(depth, width)), episodes)
+    yield Contestant("NeverAsk", "NeverAsk", Timed(NeverAsk()), 20_000)
+    yield Contestant("AlwaysAsk", "AlwaysAsk", Timed(AlwaysAsk()), 20_000)
+    plain = Timed(PlainSparse(World(problem)))
+    yield Contestant("plain NumPy sparse sampling (2, 10)", "plain NumPy", plain, 1_500)
+
+
+def theirs(problem: Problem) -> Iterator[Contestant]:
+    """Yield POUCT by style, budget and exploration constant."""
+    field_: tuple[tuple[Style, int, int], ...] = (
+        ("random", 1_000, 200),
+        ("greedy", 1_000, 200),
+        ("greedy", 10_000, 40),
+        ("aided", 100, 600),
+        ("aided", 1_000, 200),
+        ("aided", 10_000, 60),
+    )
+    for style, simulations, episodes in field_:
+        for exploration in EXPLORATION:
+            planner = Timed(Uct(problem, simulations, exploration, style))
+            name = f"pomdp_py POUCT, {style}, {simulations}"
+            yield Contestant(name, f"POUCT, {style}", planner, episodes, simulations, exploration)
+
+
+def contest(scene: str, share: float, seed: int, say: Callable[[str], None]) -> list[Record]:
+    """Play a scene with all contestants. share: of the full number of episodes."""
+    problem = Problem(Scene.load(scene))
+    slowest = 10_000 if share == 1.0 else 1_000  # simulations
+    field_ = [*ours(problem), *(rival for rival in theirs(problem) if rival.simulations <= slowest)]
+    warm = Belief.uniform(problem.n_items)
+    for rival in field_:  # compiled and loaded before the clock starts
+        rival.planner.planner.decide(problem, warm, None, rng=np.random.default_rng(0))
+    robots = [np.random.default_rng((seed, number)) for number in range(len(field_))]
+    for round_ in range(ROUNDS):
+        for rival, robot in zip(field_, robots, strict=True):
+            goal = max(20, round(rival.episodes * share)) * (round_ + 1) // ROUNDS
+            play(rival, problem, goal, (seed, robot))
+        say(f"  {scene}: round {round_ + 1} of {ROUNDS}")
+    reference = earned(next(rival for rival in field_ if rival.name == DEFAULT))
+    return [record(rival, scene, reference) for rival in field_]
+
+
+def play(rival: Contestant, problem: Problem, goal: int, chance: tuple[int, Generator]) -> None:
+    """Play on until a number of episodes is reached; each item is the desired one equally often."""
+    seed, robot = chance
+    for episode in range(len(rival.played), goal):
+        person = np.random.default_rng((seed, episode))
+        desired = episode % problem.n_items
+        rival.played.append(run_episode(problem, rival.planner, desired, person, robot))
+
+
+def earned(rival: Contestant) -> list[float]:
+    """Return the return of every episode."""
+    return [episode.earned for episode in rival.played]
+
+
+def record(rival: Contestant, scene: str, reference: list[float]) -> Record:
+    """Return a contestant's means, with standard errors; `behind` is to the default planner on the same people."""
+    returns, times = np.array(earned(rival)), np.array(rival.planner.times)
+    behind = returns - np.array(reference[: len(returns)])
+    root = np.sqrt(len(returns))
+    return {
+        "scene": scene,
+        "planner": rival.name,
+        "family": rival.family,
+        "episodes": len(returns),
+        "mean_return": float(returns.mean()),
+        "standard_error": float(returns.std(ddof=1) / root),
+        "behind": float(behind.mean()),
+        "behind_error": float(behind.std(ddof=1) / root),
+        "accuracy": float(np.mean([episode.correct for episode in rival.played])),
+        "mean_steps": float(np.mean([episode.steps for episode in rival.played])),
+        "mean_questions": float(np.mean([episode.questions for episode in rival.played])),
+        "decide_median_s": float(np.median(times)),
+        "decide_best_s": float(np.quantile(times, 0.05)),
+        "simulations": rival.simulations,
+        "simulations_per_s": rival.simulations / float(np.median(times)),
+        "exploration": rival.exploration,
+    }
+
+
+def best_of_each(records: list[Record]) -> list[Record]:
+    """Keep, of contestants that differ in the exploration constant alone, the one that earned most."""
+    best: dict[tuple[str, str], Record] = {}
+    for found in records:
+        key = (found["scene"], found["planner"])
+        if key not in best or found["mean_return"] > best[key]["mean_return"]:
+            best[key] = found
+    return list(best.values())
