@@ -19,6 +19,7 @@ from fetch_pomdp.core.planners.sparse import SparseSampling
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import MOST_STEPS, run_episode, simulate
+from fetch_pomdp.errors import PlannerError
 from tests.tables import twins
 
 PROBLEMS = {name: Problem(Scene.load(name)) for name in ("ambiguous", "unambiguous")}
@@ -70,10 +71,17 @@ def test_thirty_waits_and_questions_and_then_no_more() -> None:
     assert MOST_STEPS == 30
 
 
-def test_a_pick_after_thirty_steps_still_counts() -> None:
-    planner = Scripted(lambda step: Wait() if step < 30 else Pick(0))
+@pytest.mark.parametrize(("waits", "earned", "correct"), [(29, -19.0, True), (30, -30.0, False)])
+def test_after_thirty_steps_no_pick_is_made(waits: int, earned: float, correct: bool) -> None:
+    planner = Scripted(lambda step: Wait() if step < waits else Pick(0))
     episode = run_episode(PROBLEMS["ambiguous"], planner, 0, np.random.default_rng(0), np.random.default_rng(0))
-    assert (episode.earned, episode.correct, episode.steps) == (-20.0, True, 30)
+    assert (episode.earned, episode.correct, episode.steps) == (earned, correct, waits)
+
+
+def test_a_number_of_episodes_or_a_seed_that_is_none() -> None:
+    for episodes, seed in ((0, 0), (1, -1)):
+        with pytest.raises(PlannerError):
+            simulate(PROBLEMS["ambiguous"], PLANNERS["always"](), episodes, seed)
 
 
 @pytest.mark.parametrize("name", sorted(PLANNERS))

@@ -57,8 +57,10 @@ def log_likelihood(ray: Ray | None, problem: Problem) -> Vector:
 
     The density is per radian for "eq7" and per steradian for "exact". A ray beyond the threshold of every item is null,
     like None. Returns (n_items,) in scene order.
+
+    Choice: where p_g is 0 nobody points, so that any ray is an arm that moves for another reason: null.
     """
-    if ray is not None:
+    if ray is not None and problem.model.p_g > 0.0:
         found = angles(ray, problem)
         if found.min() <= problem.model.gesture_threshold:
             return _log_density(found, problem)
@@ -67,10 +69,6 @@ def log_likelihood(ray: Ray | None, problem: Problem) -> Vector:
 
 def _log_density(found: Vector, problem: Problem) -> Vector:
     model = problem.model
-    if model.p_g == 0.0:
-        raise ObservationError(
-            "found a pointing ray, expected none: in this model p_g is 0, nobody points", field="wrist"
-        )
     normal = math.log(model.p_g) - 0.5 * (found / model.sigma) ** 2 - math.log(model.sigma * math.sqrt(math.tau))
     if model.gesture_likelihood == "eq7":
         return np.asarray(normal)

@@ -6,8 +6,8 @@ Time is that of the sensors' streams, in seconds. A step begins with an action a
 - A question takes `Timing.question`, of which the last `Timing.wait` is listening.
 - The words that end inside a step are its utterance; the median of its pointing frames is its gesture.
 
-Choice: words that end before the question has been asked cannot answer it; they belong to the step before, and are read
-with the i_r of that step.
+Choice: answers that end before the question has been asked cannot answer it; they belong to the step before, and are
+read with the i_r of that step. Other words of that time mean the same in either step, and are read with the later one.
 
 Choice: after `Timing.silence` of waits without a word the robot says that it is listening: a person who has said all
 there is to say cannot know that it waits for more, and the paper saw interactions come to a standstill there (Section
@@ -17,7 +17,7 @@ V).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,10 +26,10 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray, angles
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource
+from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import MOST_STEPS
-from fetch_pomdp.core.words import tokenize
+from fetch_pomdp.core.words import RESPONSES, tokenize
 from fetch_pomdp.errors import ModelError
 
 
@@ -52,18 +52,26 @@ class Senses:
 
     def __init__(self, problem: Problem, ears: Recognizer | None, eyes: SkeletonSource | None) -> None:
         self._problem, self._ears, self._eyes = problem, ears, eyes
+        self._kept: tuple[Word, ...] = ()
 
-    def hear(self, time: float) -> Observed:
-        """Return what was said since the last call."""
+    def answers(self, time: float) -> Observed | None:
+        """Return the answers said since the last call, if any; other words mean the same later, and are kept."""
         words = tuple(self._ears.hear(time)) if self._ears else ()
-        texts = tuple(text for word in words for text in tokenize(word.text))
-        return Observed(Observation(texts), words, time)
+        answers = tuple(word for word in words if not RESPONSES.isdisjoint(tokenize(word.text)))
+        self._kept += tuple(word for word in words if RESPONSES.isdisjoint(tokenize(word.text)))
+        return Observed(Observation(texts(answers)), answers, time) if answers else None
 
     def perceive(self, time: float) -> Observed:
-        """Return what was said since the last call of either method, and what was seen since the last of this one."""
-        heard = self.hear(time)
+        """Return what was said and seen since the last call, without what was given as answers."""
+        words = self._kept + (tuple(self._ears.hear(time)) if self._ears else ())
+        self._kept = ()
         frames = self._eyes.see(time) if self._eyes else ()
-        return replace(heard, observation=Observation(heard.observation.words, median_ray(frames, self._problem)))
+        return Observed(Observation(texts(words), median_ray(frames, self._problem)), words, time)
+
+
+def texts(words: Sequence[Word]) -> tuple[str, ...]:
+    """Return the words of an utterance as they were heard."""
+    return tuple(text for word in words for text in tokenize(word.text))
 
 
 def interact(
@@ -81,14 +89,12 @@ def interact(
     """
     timing = timing or Timing()
     senses, now, silence = Senses(agent.problem, ears, eyes), 0.0, 0.0
-    for step in range(most_steps + 1):
+    for _ in range(most_steps):
         decision = agent.decide()
-        if step == most_steps and not isinstance(decision.action, Pick):
-            return
         if isinstance(decision.action, Point):
             now += timing.question - timing.wait
         outcome = _carry_out(decision.action, agent, robot)
-        if isinstance(decision.action, Point) and (early := senses.hear(now)).words:
+        if isinstance(decision.action, Point) and (early := senses.answers(now)):
             agent.take(early)
             yield early
         acted = Acted(decision.action, outcome, decision, now)

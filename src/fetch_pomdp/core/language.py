@@ -16,7 +16,7 @@ from numpy.random import Generator
 from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Vector, inlined
 from fetch_pomdp.core.problem import Problem, Tables
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE
+from fetch_pomdp.core.words import NEGATIVE, POSITIVE, RESPONSES
 
 Words = tuple[str, ...]
 
@@ -36,7 +36,7 @@ def split(words: Words, problem: Problem) -> Utterance:
     for word in words:
         if word in problem.word_index:
             base.append(word)
-        elif word in POSITIVE or word in NEGATIVE:
+        elif word in RESPONSES:
             response.append(word)
         else:
             unknown.append(word)

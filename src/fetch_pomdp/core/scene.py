@@ -12,7 +12,7 @@ from fetch_pomdp import checks
 from fetch_pomdp.checks import Point3
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.model import Model, Rewards
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE, tokenize
+from fetch_pomdp.core.words import RESPONSES, tokenize
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError, SceneError
 
@@ -40,7 +40,7 @@ def _vocabulary_word(value: object, path: str) -> str:
     tokens = tokenize(word)
     if tokens != (word.strip().lower(),):
         raise SceneError(f"found {checks.shown(word)}, expected a single word without punctuation", field=path)
-    if tokens[0] in POSITIVE + NEGATIVE:
+    if tokens[0] in RESPONSES:
         raise SceneError(f"found {word!r}, expected a word that is no answer to a question", field=path)
     return tokens[0]
 

@@ -10,7 +10,7 @@ from numpy.random import Generator
 from fetch_pomdp.core.action import Pick, Point
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.generative import State, step
-from fetch_pomdp.core.planners.base import Planner
+from fetch_pomdp.core.planners.base import Planner, whole_number
 from fetch_pomdp.core.problem import Problem
 
 MOST_STEPS = 30  # waits and questions; an episode that has not picked by then ends
@@ -41,14 +41,12 @@ class Summary:
 def run_episode(problem: Problem, planner: Planner, desired: int, person: Generator, robot: Generator) -> Episode:
     """Play one interaction from the uniform belief; the person and the planner draw from generators of their own.
 
-    Choice: the paper states no end; ours is 30 waits and questions without a pick, and no reward for one.
+    Choice: the paper states no end; ours comes after 30 waits and questions without a pick, and earns nothing more.
     """
     state, belief = State(desired), Belief.uniform(problem.n_items)
     total, questions = 0.0, 0
-    for steps in range(MOST_STEPS + 1):
+    for steps in range(MOST_STEPS):
         action = planner.decide(problem, belief, state.asked, rng=robot).action
-        if steps == MOST_STEPS and not isinstance(action, Pick):
-            break
         state, observation, earned = step(problem, state, action, person)
         total += earned
         if observation is None:
@@ -61,10 +59,13 @@ def run_episode(problem: Problem, planner: Planner, desired: int, person: Genera
 def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Summary:
     """Play `episodes` interactions, each item being the desired one equally often; same seed, same result.
 
+    Raises PlannerError for a number of episodes, or a seed, that is none.
+
     The person of an episode draws from a stream of the seed and the episode's number alone, so that planners are
     compared on the same people.
     """
-    robot = np.random.default_rng(seed)
+    whole_number(episodes, 1, 10**9, "episodes")
+    robot = np.random.default_rng(whole_number(seed, 0, 2**63 - 1, "seed"))
     played = [
         run_episode(problem, planner, episode % problem.n_items, np.random.default_rng((seed, episode)), robot)
         for episode in range(episodes)

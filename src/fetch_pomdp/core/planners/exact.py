@@ -40,8 +40,8 @@ class ExactAnswers:
 
     Words and pointing do not depend on the action, so one sample serves all questions and differences between actions
     carry little noise. What follows the last action looked at is closed by a leaf (see `planners.leaf`): `pick`, or
-    `question`. Width 0 stands for a number of samples by the number of items: 40 a node for small tables, 10 for the
-    largest. Raises PlannerError for a depth or width that is no whole number in range, or an unknown leaf.
+    `question`. Width 0 stands for a number of samples by the number of items: 40 a node for small tables, 5 for
+    100,000 items. Raises PlannerError for a depth or width that is no whole number in range, or an unknown leaf.
     """
 
     depth: int = 2
@@ -66,7 +66,7 @@ class ExactAnswers:
 
 def default_width(n_items: int) -> int:
     """Return how many samples keep a decision of depth 2 under about 5 ms."""
-    return int(np.clip(400_000 // n_items, 10, 40))
+    return int(np.clip(500_000 // n_items, 5, 40))
 
 
 @compiled
@@ -77,14 +77,14 @@ def plan_exact(belief: Vector, asked: int, search: Search, seed: int, tables: Ta
     while True:
         if level < last and next_answer(level, search, work, tables):
             level += 1
-            enter(level, work.asked[level], work)
+            enter(level, work.cursor[level].asked, work)
             continue
         if level == last:
             last_two_actions(level, search, work, tables)
         if level == 0:
             return root_values(search, work, tables)
         level -= 1
-        work.sums[level] += work.chance[level] * best_of(level + 1, search, work, tables)
+        work.cursor[level].sums += work.cursor[level].chance * best_of(level + 1, search, work, tables)
 
 
 @compiled
@@ -96,25 +96,25 @@ def next_answer(level: int, search: Search, work: Work, tables: Tables) -> bool:
     """
     branches = 3 * (search.questions + 1)
     while True:
-        sample, branch = divmod(work.branch[level], branches)
+        sample, branch = divmod(work.cursor[level].branch, branches)
         action, answer = branch // 3 - 1, branch % 3
-        if answer == 0 and work.branch[level] > 0:  # the sample's action before is complete
+        if answer == 0 and work.cursor[level].branch > 0:  # the sample's action before is complete
             before = search.questions - 1 if action < 0 else action - 1
-            work.totals[level, before] += work.sums[level]
-            work.squares[level, before] += work.sums[level] ** 2
-            work.sums[level] = 0.0
+            work.totals[level, before] += work.cursor[level].sums
+            work.squares[level, before] += work.cursor[level].sums ** 2
+            work.cursor[level].sums = 0.0
         if sample == search.width:
             return False
         if branch == 0:
-            desired = draw_item(work.beliefs[level], (sample + work.offset[level]) / search.width)
+            desired = draw_item(work.beliefs[level], (sample + work.cursor[level].offset) / search.width)
             hear(work.beliefs[level], desired, work.heard[level], work.state, tables)
-        work.branch[level] += 1
-        about, rate = (work.asked[level], tables.p_again) if action < 0 else (action, tables.p_l)
+        work.cursor[level].branch += 1
+        about, rate = (work.cursor[level].asked, tables.p_again) if action < 0 else (action, tables.p_l)
         if about == NOBODY and answer != SILENT:
             continue
         chance = answered(work.heard[level], about, answer, rate, work.beliefs[level + 1], tables)
         if chance > 0.0:
-            work.chance[level], work.asked[level + 1] = chance, about
+            work.cursor[level].chance, work.cursor[level + 1].asked = chance, about
             return True
 
 
@@ -122,7 +122,12 @@ def next_answer(level: int, search: Search, work: Work, tables: Tables) -> bool:
 def last_two_actions(level: int, search: Search, work: Work, tables: Tables) -> None:
     """Fill in the totals of a node with two actions left: the answers summed over, then the leaf."""
     belief, heard, state = work.beliefs[level], work.heard[level], work.state
-    totals, squares, asked, offset = work.totals[level], work.squares[level], work.asked[level], work.offset[level]
+    totals, squares, asked, offset = (
+        work.totals[level],
+        work.squares[level],
+        work.cursor[level].asked,
+        work.cursor[level].offset,
+    )
     leaf = leaf_of(search.patient, tables)
     for sample in range(search.width):
         desired = draw_item(belief, (sample + offset) / search.width)

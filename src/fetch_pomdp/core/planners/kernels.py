@@ -3,17 +3,17 @@
 `asked` and `about` are an item's index or NOBODY. A node at level k has the belief `work.beliefs[k]`; a search adds the
 values of its samples up in `work.totals[k]` (a question about item i at i, a wait at the end).
 
-A search walks its tree depth first with a cursor a level, `work.branch`: compiled recursion cannot be cached on disk.
+A search walks its tree depth first with a cursor a level, `work.cursor`: compiled recursion cannot be cached on disk.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, inlined, standard_normal, uniform
+from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, standard_normal, uniform
 from fetch_pomdp.core.gesture import ray_likelihood
 from fetch_pomdp.core.language import draw_word
 from fetch_pomdp.core.problem import Tables
@@ -35,6 +35,21 @@ class Search(NamedTuple):
     patient: bool  # leaf `question` instead of `pick`
 
 
+# Where a search stands in one node.
+CURSOR = np.dtype(
+    [
+        ("asked", np.int64),
+        ("branch", np.int64),  # which sample, action and answer it is at
+        ("offset", np.float64),  # of the evenly spread draws
+        ("desired", np.int64),  # the item drawn for the sample
+        ("speaks", np.float64),  # random numbers that select the sample's answer
+        ("means", np.float64),
+        ("chance", np.float64),  # of the answer
+        ("sums", np.float64),  # value of the sample and action, over the answers so far
+    ]
+)
+
+
 class Work(NamedTuple):
     """Memory of a search, and its random numbers; a row for each level of the tree."""
 
@@ -42,14 +57,7 @@ class Work(NamedTuple):
     heard: Vector  # (depth, n_items), a node's belief after base words and pointing
     totals: Vector  # (depth, n_items + 1), sums of values over samples
     squares: Vector  # (depth, n_items + 1), sums of their squares
-    sums: Vector  # (depth,), value of the sample and action at the cursor, over the answers so far
-    chance: Vector  # (depth,), of the answer at the cursor
-    offset: Vector  # (depth,), of the evenly spread draws of a node
-    asked: Integers  # (depth,)
-    branch: Integers  # (depth,), the cursor
-    desired: Integers  # (depth,), the item drawn for the sample at the cursor
-    speaks: Vector  # (depth,), random numbers that select its answer
-    means: Vector  # (depth,)
+    cursor: Any  # (depth,) of CURSOR
     state: RandomState
 
 
@@ -57,14 +65,11 @@ class Work(NamedTuple):
 def workspace(belief: Vector, asked: int, depth: int, seed: int) -> Work:
     """Return the memory of a search from a belief and a last question."""
     count = len(belief)
+    table = np.empty((4, depth, count + 1))
     state = np.empty(1, dtype=np.uint64)
     state[0] = seed
-    table, row = (depth, count + 1), depth
-    work = Work(
-        np.empty((depth, count)), np.empty((depth, count)), np.empty(table), np.empty(table),
-        np.empty(row), np.empty(row), np.empty(row), np.empty(row, np.int64), np.empty(row, np.int64),
-        np.empty(row, np.int64), np.empty(row), np.empty(row), state,
-    )  # fmt: skip
+    cursor = np.empty(depth, CURSOR)
+    work = Work(table[0, :, :count], table[1, :, :count], table[2], table[3], cursor, state)
     for item in range(count):
         work.beliefs[0, item] = belief[item]
     enter(0, asked, work)
@@ -77,65 +82,80 @@ def enter(level: int, asked: int, work: Work) -> None:
     for action in range(work.totals.shape[1]):
         work.totals[level, action] = 0.0
         work.squares[level, action] = 0.0
-    work.sums[level] = 0.0
-    work.asked[level] = asked
-    work.branch[level] = 0
-    work.offset[level] = uniform(work.state)
+    work.cursor[level].sums = 0.0
+    work.cursor[level].asked = asked
+    work.cursor[level].branch = 0
+    work.cursor[level].offset = uniform(work.state)
 
 
 @inlined
 def hear(belief: Vector, desired: int, heard: Vector, state: RandomState, tables: Tables) -> None:
     """Fill in the belief after base words and a gesture drawn for the desired item (Eq. 4, 5, 7)."""
-    count = len(belief)
     word = draw_word(desired, uniform(state), uniform(state), tables)
-    total = 0.0
     if word < 0:
-        for item in range(count):
+        for item in range(len(belief)):
             heard[item] = belief[item]
-            total += heard[item]
     else:
-        for item in range(count):
-            heard[item] = belief[item] * tables.smoothing[item]
-            total += heard[item]
-        for index in range(tables.word_starts[word], tables.word_starts[word + 1]):
-            item = tables.word_items[index]
-            total += heard[item] / tables.alpha
-            heard[item] += heard[item] / tables.alpha
+        hear_word(belief, word, heard, tables)
     if uniform(state) < tables.p_g:
-        total = see(desired, heard, state, tables)
-    elif tables.exact:
-        total = see_nothing(heard, tables)
+        see(desired, heard, state, tables)
+    else:
+        see_nothing(heard, tables)
+
+
+@inlined
+def hear_word(belief: Vector, word: int, heard: Vector, tables: Tables) -> None:
+    """Fill in the belief after one base word (Eq. 5)."""
+    owners = range(tables.word_starts[word], tables.word_starts[word + 1])
+    total = 0.0
+    for item in range(len(belief)):
+        total += belief[item] * tables.smoothing[item]
+    for index in owners:
+        item = tables.word_items[index]
+        total += belief[item] * tables.smoothing[item] / tables.alpha
     scale = 1.0 / total
-    for item in range(count):
-        heard[item] *= scale
+    for item in range(len(belief)):
+        heard[item] = belief[item] * tables.smoothing[item] * scale
+    gain = 1.0 + 1.0 / tables.alpha
+    for index in owners:
+        heard[tables.word_items[index]] *= gain
 
 
 @compiled
-def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> float:
-    """Multiply by the likelihood of a ray drawn around the desired item (Eq. 7); return the sum."""
+def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> None:
+    """Update by a ray drawn around the desired item (Eq. 7)."""
     angle, roll = abs(standard_normal(state)) * tables.sigma, 2.0 * math.pi * uniform(state)
     x, y, z = turned(tables.directions[desired], angle, roll)
     cosines = np.empty(len(heard))
     for item in range(len(heard)):
         cosines[item] = tables.directions[item, 0] * x + tables.directions[item, 1] * y + tables.directions[item, 2] * z
     if cosines.max() < math.cos(tables.threshold):
-        return see_nothing(heard, tables)
-    total = 0.0
+        see_nothing(heard, tables)
+        return
     for item in range(len(heard)):
         # The arc cosine is off by 1e-8 rad near the axis: nothing for a plan, and faster than `angle_between`.
         heard[item] *= ray_likelihood(math.acos(max(-1.0, min(1.0, cosines[item]))), tables)
-        total += heard[item]
-    return total
+    normalise(heard)
 
 
 @inlined
-def see_nothing(heard: Vector, tables: Tables) -> float:
-    """Multiply by the likelihood of no pointing (Eq. 7); return the sum."""
+def see_nothing(heard: Vector, tables: Tables) -> None:
+    """Update by no pointing (Eq. 7)."""
+    if tables.exact:  # else it is as likely for every item
+        for item in range(len(heard)):
+            heard[item] *= tables.null_chance[item]
+        normalise(heard)
+
+
+@inlined
+def normalise(belief: Vector) -> None:
+    """Scale to a sum of 1."""
     total = 0.0
-    for item in range(len(heard)):
-        heard[item] *= tables.null_chance[item]
-        total += heard[item]
-    return total
+    for item in range(len(belief)):
+        total += belief[item]
+    scale = 1.0 / total
+    for item in range(len(belief)):
+        belief[item] *= scale
 
 
 @inlined
@@ -178,12 +198,12 @@ def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
 def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
     """Return what a search that is complete knows at its root."""
     belief, count = work.beliefs[0], work.beliefs.shape[1]
-    means, errors = np.empty(count + 1), np.empty(count + 1)
+    values = np.empty((4, count + 1))
+    means, errors, pick, point = values[0], values[1], values[2, :count], values[3, :count]
     for action in range(count + 1):
         mean = work.totals[0, action] / search.width
         spread = max(work.squares[0, action] / search.width - mean * mean, 0.0)
         means[action], errors[action] = mean, math.sqrt(spread / max(search.width - 1, 1))
-    pick, point = np.empty(count), np.empty(count)
     for item in range(count):
         pick[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
         point[item] = tables.point + means[item]

@@ -68,14 +68,14 @@ def plan_sparse(belief: Vector, asked: int, search: Search, seed: int, tables: T
     while True:
         if level < last and next_observation(level, search, work, tables):
             level += 1
-            enter(level, work.asked[level], work)
+            enter(level, work.cursor[level].asked, work)
             continue
         if level == last:
             last_two_sampled(level, search, work, tables)
         if level == 0:
             return root_values(search, work, tables)
         level -= 1
-        action = (work.branch[level] - 1) % (search.questions + 1) - 1
+        action = (work.cursor[level].branch - 1) % (search.questions + 1) - 1
         value = best_of(level + 1, search, work, tables)
         work.totals[level, action] += value
         work.squares[level, action] += value * value
@@ -84,21 +84,25 @@ def plan_sparse(belief: Vector, asked: int, search: Search, seed: int, tables: T
 @compiled
 def next_observation(level: int, search: Search, work: Work, tables: Tables) -> bool:
     """Move a node's cursor to its next sample and action and put the belief then one level down; False at the end."""
-    sample, branch = divmod(work.branch[level], search.questions + 1)
+    sample, branch = divmod(work.cursor[level].branch, search.questions + 1)
     if sample == search.width:
         return False
     belief, heard, state = work.beliefs[level], work.heard[level], work.state
     if branch == 0:
-        work.desired[level] = draw_item(belief, (sample + work.offset[level]) / search.width)
-        hear(belief, work.desired[level], heard, state, tables)
+        work.cursor[level].desired = draw_item(belief, (sample + work.cursor[level].offset) / search.width)
+        hear(belief, work.cursor[level].desired, heard, state, tables)
         if sample == 0:
-            work.speaks[level], work.means[level] = uniform(state), uniform(state)
-        work.speaks[level], work.means[level] = spread(work.speaks[level], work.means[level])
-    work.branch[level] += 1
-    about, rate = (work.asked[level], tables.p_again) if branch == 0 else (branch - 1, tables.p_l)
-    answer = select_answer(work.desired[level], about, rate, work.speaks[level], work.means[level], tables)
+            work.cursor[level].speaks, work.cursor[level].means = uniform(state), uniform(state)
+        work.cursor[level].speaks, work.cursor[level].means = spread(
+            work.cursor[level].speaks, work.cursor[level].means
+        )
+    work.cursor[level].branch += 1
+    about, rate = (work.cursor[level].asked, tables.p_again) if branch == 0 else (branch - 1, tables.p_l)
+    answer = select_answer(
+        work.cursor[level].desired, about, rate, work.cursor[level].speaks, work.cursor[level].means, tables
+    )
     answered(heard, about, answer, rate, work.beliefs[level + 1], tables)
-    work.asked[level + 1] = about
+    work.cursor[level + 1].asked = about
     return True
 
 
@@ -106,7 +110,12 @@ def next_observation(level: int, search: Search, work: Work, tables: Tables) -> 
 def last_two_sampled(level: int, search: Search, work: Work, tables: Tables) -> None:
     """Fill in the totals of a node with two actions left, the last of them by leaf `pick`."""
     belief, heard, following, state = work.beliefs[level], work.heard[level], work.beliefs[level + 1], work.state
-    totals, squares, asked, offset = work.totals[level], work.squares[level], work.asked[level], work.offset[level]
+    totals, squares, asked, offset = (
+        work.totals[level],
+        work.squares[level],
+        work.cursor[level].asked,
+        work.cursor[level].offset,
+    )
     speaks, means = uniform(state), uniform(state)
     for sample in range(search.width):
         desired = draw_item(belief, (sample + offset) / search.width)
