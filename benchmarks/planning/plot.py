@@ -90,4 +90,4 @@ def _scaling(axes: Axes, times: list[Record]) -> None:
             items, seconds, marker=marker, ls=line, color="0.35", mfc=fill, mec="black", ms=7, lw=0.9, label=label
         )
     axes.set(xscale="log", yscale="log", xlabel="items", ylabel="time a decision (s)")
-    axes.legend(frameon=False, fontsize=8)
+    axes.legend(frameon=False, fontsize=8, loc="lower right")
