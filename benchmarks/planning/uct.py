@@ -23,7 +23,7 @@ from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
-import pomdp_py  # type: ignore[import-untyped]
+import pomdp_py
 from numpy.random import Generator
 
 from fetch_pomdp import Action, Belief, Decision, Pick, Point, Problem, Wait

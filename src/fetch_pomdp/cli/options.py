@@ -39,7 +39,7 @@ def as_json(asked: bool) -> bool:
 
 def warm_up(planner: Planner) -> None:
     """Load the compiled planner, and say so on standard error where that takes long: the first time it is compiled."""
-    message = "Compiling the planner, once after installation: up to half a minute ..."
+    message = "Compiling the planner, once after installation where its cache can be written: up to half a minute ..."
     timer = threading.Timer(PATIENCE, lambda: print(message, file=sys.stderr, flush=True))
     timer.daemon = True
     timer.start()

@@ -17,22 +17,27 @@ RandomState = npt.NDArray[np.uint64]  # (1,): the state of `uniform`
 
 def compiled(function: Function) -> Function:
     """Compile with Numba on first call; the result is cached on disk where a folder for it can be written."""
-    return _compiled(function, forceinline=False)
+    return _compiled(function)
+
+
+def lean(function: Function) -> Function:
+    """Compile like `compiled` a function that makes no array, and so need not count references to any."""
+    return _compiled(function, _nrt=False)
 
 
 def inlined(function: Function) -> Function:
-    """Compile like `compiled`, into the caller: a call that hands over a `Tables` costs more than a small function."""
-    return _compiled(function, forceinline=True)
+    """Compile like `lean`, into the caller: a call that hands over a `Tables` costs more than a small function."""
+    return _compiled(function, _nrt=False, forceinline=True)
 
 
-def _compiled(function: Function, *, forceinline: bool) -> Function:
+def _compiled(function: Function, **more: bool) -> Function:
     jit: Any = njit
     # Nothing here computes with NaN, so loops over a max may be vectorised.
     options = {
         "nogil": True,
         "error_model": "numpy",
         "fastmath": {"nnan", "nsz", "contract"},
-        "forceinline": forceinline,
+        **more,
     }
     try:
         return cast("Function", jit(cache=True, **options)(function))

@@ -15,7 +15,7 @@ from numpy.random import Generator
 
 from fetch_pomdp import checks
 from fetch_pomdp.checks import Point3
-from fetch_pomdp.core.compiled import Vector, compiled
+from fetch_pomdp.core.compiled import Vector, lean
 from fetch_pomdp.core.problem import Problem, Tables
 from fetch_pomdp.core.rays import angles_from, turned
 from fetch_pomdp.errors import ObservationError
@@ -87,7 +87,7 @@ def sample(desired: int, problem: Problem, rng: Generator) -> Ray | None:
     return ray if is_pointing(ray, problem) else None
 
 
-@compiled
+@lean
 def ray_likelihood(angle: float, tables: Tables) -> float:
     """Return the likelihood of a ray at `angle` (rad) from an item, up to a factor that all items share (Eq. 7)."""
     likelihood = math.exp(-0.5 * (angle / tables.sigma) ** 2)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from fetch_pomdp.core.compiled import Vector, compiled
+from fetch_pomdp.core.compiled import Vector, compiled, lean
 
 LARGEST_EXACT = 1_000  # items: `miss_chances` takes time quadratic in their number
 _NODES = 48  # of the quadrature over the off-axis angle
@@ -19,7 +19,7 @@ def unit_directions(head: Vector, positions: Vector) -> Vector:
     return rays / lengths[:, None]
 
 
-@compiled
+@lean
 def angle_between(direction: Vector, x: float, y: float, z: float) -> float:
     """Return the angle (rad) between two unit vectors, precise for small angles too."""
     a, b, c = direction[0], direction[1], direction[2]
@@ -42,7 +42,7 @@ def angles_from(head: Vector, wrist: Vector, positions: Vector) -> Vector:
     return result
 
 
-@compiled
+@lean
 def turned(direction: Vector, angle: float, roll: float) -> tuple[float, float, float]:
     """Return the unit vector at `angle` (rad) from a unit `direction`, at `roll` (rad) around it."""
     x, y, z = direction[0], direction[1], direction[2]

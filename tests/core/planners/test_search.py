@@ -281,4 +281,4 @@ def test_leaf_question_by_playing_its_policy(again: float, patient: bool) -> Non
 
 
 def test_default_width_is_fixed_by_the_number_of_items() -> None:
-    assert [default_width(count) for count in (1, 6, 10_000, 20_000, 100_000)] == [40, 40, 40, 25, 5]
+    assert [default_width(count) for count in (1, 6, 10_000, 20_000, 100_000)] == [80, 80, 50, 25, 5]

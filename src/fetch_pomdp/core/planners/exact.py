@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.compiled import Vector, compiled
+from fetch_pomdp.core.compiled import Vector, compiled, lean
 from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, whole_number
 from fetch_pomdp.core.planners.kernels import (
     NOBODY,
@@ -40,7 +39,7 @@ class ExactAnswers:
 
     Words and pointing do not depend on the action, so one sample serves all questions and differences between actions
     carry little noise. What follows the last action looked at is closed by a leaf (see `planners.leaf`): `pick`, or
-    `question`. Width 0 stands for a number of samples by the number of items: 40 a node for small tables, 5 for
+    `question`. Width 0 stands for a number of samples by the number of items: 80 a node for small tables, 5 for
     100,000 items. Raises PlannerError for a depth or width that is no whole number in range, or an unknown leaf.
     """
 
@@ -66,7 +65,7 @@ class ExactAnswers:
 
 def default_width(n_items: int) -> int:
     """Return how many samples keep a decision of depth 2 under about 5 ms."""
-    return int(np.clip(500_000 // n_items, 5, 40))
+    return max(5, min(80, 500_000 // n_items))
 
 
 @compiled
@@ -87,7 +86,7 @@ def plan_exact(belief: Vector, asked: int, search: Search, seed: int, tables: Ta
         work.cursor[level].sums += work.cursor[level].chance * best_of(level + 1, search, work, tables)
 
 
-@compiled
+@lean
 def next_answer(level: int, search: Search, work: Work, tables: Tables) -> bool:
     """Move a node's cursor to its next sample, action and answer and put the belief then one level down; False at the
     end.
@@ -118,7 +117,7 @@ def next_answer(level: int, search: Search, work: Work, tables: Tables) -> bool:
             return True
 
 
-@compiled
+@lean
 def last_two_actions(level: int, search: Search, work: Work, tables: Tables) -> None:
     """Fill in the totals of a node with two actions left: the answers summed over, then the leaf."""
     belief, heard, state = work.beliefs[level], work.heard[level], work.state

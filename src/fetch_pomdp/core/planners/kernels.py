@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, standard_normal, uniform
+from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, lean, standard_normal, uniform
 from fetch_pomdp.core.gesture import ray_likelihood
 from fetch_pomdp.core.language import draw_word
 from fetch_pomdp.core.problem import Tables
@@ -121,21 +121,28 @@ def hear_word(belief: Vector, word: int, heard: Vector, tables: Tables) -> None:
         heard[tables.word_items[index]] *= gain
 
 
-@compiled
+@lean
 def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> None:
     """Update by a ray drawn around the desired item (Eq. 7)."""
     angle, roll = abs(standard_normal(state)) * tables.sigma, 2.0 * math.pi * uniform(state)
     x, y, z = turned(tables.directions[desired], angle, roll)
-    cosines = np.empty(len(heard))
+    nearest = -1.0
     for item in range(len(heard)):
-        cosines[item] = tables.directions[item, 0] * x + tables.directions[item, 1] * y + tables.directions[item, 2] * z
-    if cosines.max() < math.cos(tables.threshold):
+        nearest = max(nearest, cosine_of(item, x, y, z, tables))
+    if nearest < math.cos(tables.threshold):
         see_nothing(heard, tables)
         return
     for item in range(len(heard)):
         # The arc cosine is off by 1e-8 rad near the axis: nothing for a plan, and faster than `angle_between`.
-        heard[item] *= ray_likelihood(math.acos(max(-1.0, min(1.0, cosines[item]))), tables)
+        heard[item] *= ray_likelihood(math.acos(max(-1.0, min(1.0, cosine_of(item, x, y, z, tables)))), tables)
     normalise(heard)
+
+
+@inlined
+def cosine_of(item: int, x: float, y: float, z: float, tables: Tables) -> float:
+    """Return the cosine of the angle between a ray and the direction to an item."""
+    axis = tables.directions[item]
+    return float(axis[0] * x + axis[1] * y + axis[2] * z)
 
 
 @inlined
@@ -184,7 +191,7 @@ def largest(belief: Vector) -> float:
     return found
 
 
-@compiled
+@lean
 def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
     """Return the value of a node whose totals are complete: the best of picks, a wait and questions."""
     best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(work.beliefs[level])
@@ -197,17 +204,15 @@ def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
 @compiled
 def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
     """Return what a search that is complete knows at its root."""
-    belief, count = work.beliefs[0], work.beliefs.shape[1]
-    values = np.empty((4, count + 1))
-    means, errors, pick, point = values[0], values[1], values[2, :count], values[3, :count]
-    for action in range(count + 1):
-        mean = work.totals[0, action] / search.width
-        spread = max(work.squares[0, action] / search.width - mean * mean, 0.0)
-        means[action], errors[action] = mean, math.sqrt(spread / max(search.width - 1, 1))
+    belief, means, errors, count = work.beliefs[0], work.totals[0], work.squares[0], work.beliefs.shape[1]
+    for action in range(count + 1):  # in place: fresh memory costs more than all that is computed here
+        mean = means[action] / search.width
+        spread = max(errors[action] / search.width - mean * mean, 0.0)
+        means[action] = mean + (tables.point if action < count else tables.wait)
+        errors[action] = math.sqrt(spread / max(search.width - 1, 1))
     for item in range(count):
-        pick[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
-        point[item] = tables.point + means[item]
-    return float(tables.wait + means[count]), point, pick, float(errors[count]), errors[:count]
+        belief[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
+    return float(means[count]), means[:count], belief, float(errors[count]), errors[:count]
 
 
 @inlined

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from numpy.random import Generator
 
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.compiled import Vector, compiled, inlined, uniform
+from fetch_pomdp.core.compiled import Vector, compiled, inlined, lean, uniform
 from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, whole_number
 from fetch_pomdp.core.planners.kernels import (
     NO,
@@ -81,7 +81,7 @@ def plan_sparse(belief: Vector, asked: int, search: Search, seed: int, tables: T
         work.squares[level, action] += value * value
 
 
-@compiled
+@lean
 def next_observation(level: int, search: Search, work: Work, tables: Tables) -> bool:
     """Move a node's cursor to its next sample and action and put the belief then one level down; False at the end."""
     sample, branch = divmod(work.cursor[level].branch, search.questions + 1)
@@ -106,7 +106,7 @@ def next_observation(level: int, search: Search, work: Work, tables: Tables) -> 
     return True
 
 
-@compiled
+@lean
 def last_two_sampled(level: int, search: Search, work: Work, tables: Tables) -> None:
     """Fill in the totals of a node with two actions left, the last of them by leaf `pick`."""
     belief, heard, following, state = work.beliefs[level], work.heard[level], work.beliefs[level + 1], work.state
