@@ -72,18 +72,18 @@ def default_width(n_items: int) -> int:
 def plan_exact(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> RootValues:
     """Search with sampled words and pointing, shared by all actions, and answers summed exactly."""
     work = workspace(belief, asked, search.depth, seed)
-    level, last = 0, search.depth - 2
+    cursor, level, last = work.cursor, 0, search.depth - 2
     while True:
         if level < last and next_answer(level, search, work, tables):
             level += 1
-            enter(level, work.cursor[level].asked, work)
+            enter(level, cursor["asked"][level], work)
             continue
         if level == last:
             last_two_actions(level, search, work, tables)
         if level == 0:
             return root_values(search, work, tables)
         level -= 1
-        work.cursor[level].sums += work.cursor[level].chance * best_of(level + 1, search, work, tables)
+        cursor["sums"][level] += cursor["chance"][level] * best_of(level + 1, search, work, tables)
 
 
 @lean
@@ -93,27 +93,27 @@ def next_answer(level: int, search: Search, work: Work, tables: Tables) -> bool:
 
     A sample has 3 branches an action: silence, yes, no; where nothing was asked a wait has one.
     """
-    branches = 3 * (search.questions + 1)
+    cursor, branches = work.cursor, 3 * (search.questions + 1)
     while True:
-        sample, branch = divmod(work.cursor[level].branch, branches)
+        sample, branch = divmod(cursor["branch"][level], branches)
         action, answer = branch // 3 - 1, branch % 3
-        if answer == 0 and work.cursor[level].branch > 0:  # the sample's action before is complete
+        if answer == 0 and cursor["branch"][level] > 0:  # the sample's action before is complete
             before = search.questions - 1 if action < 0 else action - 1
-            work.totals[level, before] += work.cursor[level].sums
-            work.squares[level, before] += work.cursor[level].sums ** 2
-            work.cursor[level].sums = 0.0
+            work.totals[level, before] += cursor["sums"][level]
+            work.squares[level, before] += cursor["sums"][level] ** 2
+            cursor["sums"][level] = 0.0
         if sample == search.width:
             return False
         if branch == 0:
-            desired = draw_item(work.beliefs[level], (sample + work.cursor[level].offset) / search.width)
+            desired = draw_item(work.beliefs[level], (sample + cursor["offset"][level]) / search.width)
             hear(work.beliefs[level], desired, work.heard[level], work.state, tables)
-        work.cursor[level].branch += 1
-        about, rate = (work.cursor[level].asked, tables.p_again) if action < 0 else (action, tables.p_l)
+        cursor["branch"][level] += 1
+        about, rate = (cursor["asked"][level], tables.p_again) if action < 0 else (action, tables.p_l)
         if about == NOBODY and answer != SILENT:
             continue
         chance = answered(work.heard[level], about, answer, rate, work.beliefs[level + 1], tables)
         if chance > 0.0:
-            work.cursor[level].chance, work.cursor[level + 1].asked = chance, about
+            cursor["chance"][level], cursor["asked"][level + 1] = chance, about
             return True
 
 
@@ -121,12 +121,8 @@ def next_answer(level: int, search: Search, work: Work, tables: Tables) -> bool:
 def last_two_actions(level: int, search: Search, work: Work, tables: Tables) -> None:
     """Fill in the totals of a node with two actions left: the answers summed over, then the leaf."""
     belief, heard, state = work.beliefs[level], work.heard[level], work.state
-    totals, squares, asked, offset = (
-        work.totals[level],
-        work.squares[level],
-        work.cursor[level].asked,
-        work.cursor[level].offset,
-    )
+    totals, squares = work.totals[level], work.squares[level]
+    asked, offset = work.cursor["asked"][level], work.cursor["offset"][level]
     leaf = leaf_of(search.patient, tables)
     for sample in range(search.width):
         desired = draw_item(belief, (sample + offset) / search.width)

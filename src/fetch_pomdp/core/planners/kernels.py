@@ -82,10 +82,11 @@ def enter(level: int, asked: int, work: Work) -> None:
     for action in range(work.totals.shape[1]):
         work.totals[level, action] = 0.0
         work.squares[level, action] = 0.0
-    work.cursor[level].sums = 0.0
-    work.cursor[level].asked = asked
-    work.cursor[level].branch = 0
-    work.cursor[level].offset = uniform(work.state)
+    cursor = work.cursor
+    cursor["sums"][level] = 0.0
+    cursor["asked"][level] = asked
+    cursor["branch"][level] = 0
+    cursor["offset"][level] = uniform(work.state)
 
 
 @inlined

@@ -64,18 +64,18 @@ class SparseSampling:
 def plan_sparse(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> RootValues:
     """Search with sampled observations, answers included."""
     work = workspace(belief, asked, search.depth, seed)
-    level, last = 0, search.depth - 2
+    cursor, level, last = work.cursor, 0, search.depth - 2
     while True:
         if level < last and next_observation(level, search, work, tables):
             level += 1
-            enter(level, work.cursor[level].asked, work)
+            enter(level, cursor["asked"][level], work)
             continue
         if level == last:
             last_two_sampled(level, search, work, tables)
         if level == 0:
             return root_values(search, work, tables)
         level -= 1
-        action = (work.cursor[level].branch - 1) % (search.questions + 1) - 1
+        action = (cursor["branch"][level] - 1) % (search.questions + 1) - 1
         value = best_of(level + 1, search, work, tables)
         work.totals[level, action] += value
         work.squares[level, action] += value * value
@@ -84,25 +84,24 @@ def plan_sparse(belief: Vector, asked: int, search: Search, seed: int, tables: T
 @lean
 def next_observation(level: int, search: Search, work: Work, tables: Tables) -> bool:
     """Move a node's cursor to its next sample and action and put the belief then one level down; False at the end."""
-    sample, branch = divmod(work.cursor[level].branch, search.questions + 1)
+    cursor = work.cursor
+    sample, branch = divmod(cursor["branch"][level], search.questions + 1)
     if sample == search.width:
         return False
     belief, heard, state = work.beliefs[level], work.heard[level], work.state
     if branch == 0:
-        work.cursor[level].desired = draw_item(belief, (sample + work.cursor[level].offset) / search.width)
-        hear(belief, work.cursor[level].desired, heard, state, tables)
+        cursor["desired"][level] = draw_item(belief, (sample + cursor["offset"][level]) / search.width)
+        hear(belief, cursor["desired"][level], heard, state, tables)
         if sample == 0:
-            work.cursor[level].speaks, work.cursor[level].means = uniform(state), uniform(state)
-        work.cursor[level].speaks, work.cursor[level].means = spread(
-            work.cursor[level].speaks, work.cursor[level].means
-        )
-    work.cursor[level].branch += 1
-    about, rate = (work.cursor[level].asked, tables.p_again) if branch == 0 else (branch - 1, tables.p_l)
+            cursor["speaks"][level], cursor["means"][level] = uniform(state), uniform(state)
+        cursor["speaks"][level], cursor["means"][level] = spread(cursor["speaks"][level], cursor["means"][level])
+    cursor["branch"][level] += 1
+    about, rate = (cursor["asked"][level], tables.p_again) if branch == 0 else (branch - 1, tables.p_l)
     answer = select_answer(
-        work.cursor[level].desired, about, rate, work.cursor[level].speaks, work.cursor[level].means, tables
+        cursor["desired"][level], about, rate, cursor["speaks"][level], cursor["means"][level], tables
     )
     answered(heard, about, answer, rate, work.beliefs[level + 1], tables)
-    work.cursor[level + 1].asked = about
+    cursor["asked"][level + 1] = about
     return True
 
 
@@ -110,12 +109,8 @@ def next_observation(level: int, search: Search, work: Work, tables: Tables) -> 
 def last_two_sampled(level: int, search: Search, work: Work, tables: Tables) -> None:
     """Fill in the totals of a node with two actions left, the last of them by leaf `pick`."""
     belief, heard, following, state = work.beliefs[level], work.heard[level], work.beliefs[level + 1], work.state
-    totals, squares, asked, offset = (
-        work.totals[level],
-        work.squares[level],
-        work.cursor[level].asked,
-        work.cursor[level].offset,
-    )
+    totals, squares = work.totals[level], work.squares[level]
+    asked, offset = work.cursor["asked"][level], work.cursor["offset"][level]
     speaks, means = uniform(state), uniform(state)
     for sample in range(search.width):
         desired = draw_item(belief, (sample + offset) / search.width)
