@@ -1,6 +1,6 @@
 """Figure 1 of the paper with the real parts: synthesis, recognition, belief, planner, over many voices in noise.
 
-The person says "hand me the green marker", says "no" to the first marker the robot asks about, whichever it is, and
+The person says "hand me the marker", says "no" to the first marker the robot asks about, whichever it is, and
 "yes" to the other; the robot understands when it hands over the other one. Nothing but the person is scripted.
 """
 
@@ -20,7 +20,7 @@ from voices import RATE, VOICES, speak
 
 SNR = 20.0  # dB
 ASKING = 1.8  # s, after which the robot has asked
-REPEATED = 5.0  # s of the robot's silence after which the person asks again
+REPEATED = 4.0  # s of the robot's silence after which the person asks again
 LEAST = 11  # of 14 voices
 
 Samples = NDArray[np.int16]
@@ -31,16 +31,16 @@ class Person:
 
     def __init__(self, voice: str, folder: Path) -> None:
         self._clips = {
-            text: speak(text, voice, folder / "voice.wav") for text in ("hand me the green marker", "no", "yes")
+            text: speak(text, voice, folder / "voice.wav") for text in ("hand me the marker", "no", "yes")
         }
-        loudness = np.sqrt(np.mean(self._clips["hand me the green marker"].astype(float) ** 2))
+        loudness = np.sqrt(np.mean(self._clips["hand me the marker"].astype(float) ** 2))
         self._noise = loudness * 10 ** (-SNR / 20)
         self._rng = np.random.default_rng(0)
         self._time = 0  # samples
         self._room: dict[int, Samples] = {}
         self._quiet_since = 0
         self.asked: list[str] = []
-        self._say("hand me the green marker", 0.3)
+        self._say("hand me the marker", 0.3)
 
     def _say(self, text: str, later: float) -> None:
         start = self._time + int(later * RATE)
@@ -49,7 +49,7 @@ class Person:
 
     def read(self, count: int) -> Samples:
         if self._time - self._quiet_since > REPEATED * RATE:
-            self._say("hand me the green marker", 0.1)
+            self._say("hand me the marker", 0.1)
         sound = self._rng.standard_normal(count) * self._noise
         for start, clip in self._room.items():
             first, last = max(start, self._time), min(start + len(clip), self._time + count)
