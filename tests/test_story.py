@@ -30,9 +30,7 @@ class Person:
     """A voice in a noisy room (a Sound), and hands that take what they are given (a Robot)."""
 
     def __init__(self, voice: str, folder: Path) -> None:
-        self._clips = {
-            text: speak(text, voice, folder / "voice.wav") for text in ("hand me the marker", "no", "yes")
-        }
+        self._clips = {text: speak(text, voice, folder / "voice.wav") for text in ("hand me the marker", "no", "yes")}
         loudness = np.sqrt(np.mean(self._clips["hand me the marker"].astype(float) ** 2))
         self._noise = loudness * 10 ** (-SNR / 20)
         self._rng = np.random.default_rng(0)

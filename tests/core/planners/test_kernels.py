@@ -27,7 +27,7 @@ def heard(problem: Problem, desired: int, draws: int, prior: list[float] = PRIOR
     belief, found = np.array(prior), np.empty((draws, len(prior)))
     state = random_state(5)
     for draw in range(draws):
-        hear(belief, desired, found[draw], state, problem.tables)
+        hear(belief, float(belief @ problem.tables.smoothing), desired, found[draw], state, problem.tables)
     return found
 
 

@@ -71,12 +71,12 @@ def default_width(n_items: int) -> int:
 @compiled
 def plan_exact(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> RootValues:
     """Search with sampled words and pointing, shared by all actions, and answers summed exactly."""
-    work = workspace(belief, asked, search.depth, seed)
+    work = workspace(belief, asked, search.depth, seed, tables)
     cursor, level, last = work.cursor, 0, search.depth - 2
     while True:
         if level < last and next_answer(level, search, work, tables):
             level += 1
-            enter(level, cursor["asked"][level], work)
+            enter(level, cursor["asked"][level], work, tables)
             continue
         if level == last:
             last_two_actions(level, search, work, tables)
@@ -106,7 +106,7 @@ def next_answer(level: int, search: Search, work: Work, tables: Tables) -> bool:
             return False
         if branch == 0:
             desired = draw_item(work.beliefs[level], (sample + cursor["offset"][level]) / search.width)
-            hear(work.beliefs[level], desired, work.heard[level], work.state, tables)
+            hear(work.beliefs[level], cursor["smoothed"][level], desired, work.heard[level], work.state, tables)
         cursor["branch"][level] += 1
         about, rate = (cursor["asked"][level], tables.p_again) if action < 0 else (action, tables.p_l)
         if about == NOBODY and answer != SILENT:
@@ -123,10 +123,11 @@ def last_two_actions(level: int, search: Search, work: Work, tables: Tables) -> 
     belief, heard, state = work.beliefs[level], work.heard[level], work.state
     totals, squares = work.totals[level], work.squares[level]
     asked, offset = work.cursor["asked"][level], work.cursor["offset"][level]
+    smoothed = work.cursor["smoothed"][level]
     leaf = leaf_of(search.patient, tables)
     for sample in range(search.width):
         desired = draw_item(belief, (sample + offset) / search.width)
-        hear(belief, desired, heard, state, tables)
+        hear(belief, smoothed, desired, heard, state, tables)
         top = leading(heard)
         value = answered_leaf(heard, asked, tables.p_again, top, leaf)
         totals[-1] += value

@@ -41,6 +41,7 @@ CURSOR = np.dtype(
         ("asked", np.int64),
         ("branch", np.int64),  # which sample, action and answer it is at
         ("offset", np.float64),  # of the evenly spread draws
+        ("smoothed", np.float64),  # sum of the node's beliefs, each times its item's smoothing (Eq. 5)
         ("desired", np.int64),  # the item drawn for the sample
         ("speaks", np.float64),  # random numbers that select the sample's answer
         ("means", np.float64),
@@ -62,22 +63,22 @@ class Work(NamedTuple):
 
 
 @compiled
-def workspace(belief: Vector, asked: int, depth: int, seed: int) -> Work:
+def workspace(belief: Vector, asked: int, depth: int, seed: int, tables: Tables) -> Work:
     """Return the memory of a search from a belief and a last question."""
     count = len(belief)
-    table = np.empty((4, depth, count + 1))
+    chances, values = np.empty((2, depth, count)), np.empty((2, depth, count + 1))
     state = np.empty(1, dtype=np.uint64)
     state[0] = seed
     cursor = np.empty(depth, CURSOR)
-    work = Work(table[0, :, :count], table[1, :, :count], table[2], table[3], cursor, state)
+    work = Work(chances[0], chances[1], values[0], values[1], cursor, state)
     for item in range(count):
         work.beliefs[0, item] = belief[item]
-    enter(0, asked, work)
+    enter(0, asked, work, tables)
     return work
 
 
 @inlined
-def enter(level: int, asked: int, work: Work) -> None:
+def enter(level: int, asked: int, work: Work, tables: Tables) -> None:
     """Start on a node whose belief is in place."""
     for action in range(work.totals.shape[1]):
         work.totals[level, action] = 0.0
@@ -87,17 +88,21 @@ def enter(level: int, asked: int, work: Work) -> None:
     cursor["asked"][level] = asked
     cursor["branch"][level] = 0
     cursor["offset"][level] = uniform(work.state)
+    smoothed = 0.0
+    for item in range(work.beliefs.shape[1]):
+        smoothed += work.beliefs[level, item] * tables.smoothing[item]
+    cursor["smoothed"][level] = smoothed
 
 
 @inlined
-def hear(belief: Vector, desired: int, heard: Vector, state: RandomState, tables: Tables) -> None:
+def hear(belief: Vector, smoothed: float, desired: int, heard: Vector, state: RandomState, tables: Tables) -> None:
     """Fill in the belief after base words and a gesture drawn for the desired item (Eq. 4, 5, 7)."""
     word = draw_word(desired, uniform(state), uniform(state), tables)
     if word < 0:
         for item in range(len(belief)):
             heard[item] = belief[item]
     else:
-        hear_word(belief, word, heard, tables)
+        hear_word(belief, smoothed, word, heard, tables)
     if uniform(state) < tables.p_g:
         see(desired, heard, state, tables)
     else:
@@ -105,12 +110,10 @@ def hear(belief: Vector, desired: int, heard: Vector, state: RandomState, tables
 
 
 @inlined
-def hear_word(belief: Vector, word: int, heard: Vector, tables: Tables) -> None:
+def hear_word(belief: Vector, smoothed: float, word: int, heard: Vector, tables: Tables) -> None:
     """Fill in the belief after one base word (Eq. 5)."""
     owners = range(tables.word_starts[word], tables.word_starts[word + 1])
-    total = 0.0
-    for item in range(len(belief)):
-        total += belief[item] * tables.smoothing[item]
+    total = smoothed
     for index in owners:
         item = tables.word_items[index]
         total += belief[item] * tables.smoothing[item] / tables.alpha

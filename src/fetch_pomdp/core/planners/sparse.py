@@ -63,12 +63,12 @@ class SparseSampling:
 @compiled
 def plan_sparse(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> RootValues:
     """Search with sampled observations, answers included."""
-    work = workspace(belief, asked, search.depth, seed)
+    work = workspace(belief, asked, search.depth, seed, tables)
     cursor, level, last = work.cursor, 0, search.depth - 2
     while True:
         if level < last and next_observation(level, search, work, tables):
             level += 1
-            enter(level, cursor["asked"][level], work)
+            enter(level, cursor["asked"][level], work, tables)
             continue
         if level == last:
             last_two_sampled(level, search, work, tables)
@@ -91,7 +91,7 @@ def next_observation(level: int, search: Search, work: Work, tables: Tables) -> 
     belief, heard, state = work.beliefs[level], work.heard[level], work.state
     if branch == 0:
         cursor["desired"][level] = draw_item(belief, (sample + cursor["offset"][level]) / search.width)
-        hear(belief, cursor["desired"][level], heard, state, tables)
+        hear(belief, cursor["smoothed"][level], cursor["desired"][level], heard, state, tables)
         if sample == 0:
             cursor["speaks"][level], cursor["means"][level] = uniform(state), uniform(state)
         cursor["speaks"][level], cursor["means"][level] = spread(cursor["speaks"][level], cursor["means"][level])
@@ -111,10 +111,11 @@ def last_two_sampled(level: int, search: Search, work: Work, tables: Tables) -> 
     belief, heard, following, state = work.beliefs[level], work.heard[level], work.beliefs[level + 1], work.state
     totals, squares = work.totals[level], work.squares[level]
     asked, offset = work.cursor["asked"][level], work.cursor["offset"][level]
+    smoothed = work.cursor["smoothed"][level]
     speaks, means = uniform(state), uniform(state)
     for sample in range(search.width):
         desired = draw_item(belief, (sample + offset) / search.width)
-        hear(belief, desired, heard, state, tables)
+        hear(belief, smoothed, desired, heard, state, tables)
         speaks, means = spread(speaks, means)
         for action in range(-1, search.questions):
             about, rate = (asked, tables.p_again) if action < 0 else (action, tables.p_l)
