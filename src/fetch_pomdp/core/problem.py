@@ -43,7 +43,7 @@ class Tables(NamedTuple):
     wait: float
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Problem:
     """A scene ready to compute with. Raises ModelError if the exact gesture likelihood is asked for too many items."""
 

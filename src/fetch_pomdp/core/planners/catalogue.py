@@ -9,12 +9,14 @@ from typing import Any
 from fetch_pomdp.checks import known
 from fetch_pomdp.core.planners.base import Planner
 from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
 from fetch_pomdp.core.planners.sparse import SparseSampling
 from fetch_pomdp.errors import PlannerError
 
-DEFAULT = "exact"
+DEFAULT = "fitted"
 PLANNERS: Mapping[str, Callable[..., Planner]] = {
+    "fitted": FittedValue,
     "exact": ExactAnswers,
     "sparse": SparseSampling,
     "never": NeverAsk,

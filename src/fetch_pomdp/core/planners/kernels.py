@@ -187,6 +187,29 @@ def answered(heard: Vector, about: int, answer: int, rate: float, belief: Vector
 
 
 @inlined
+def select_answer(desired: int, about: int, rate: float, speaks: float, means: float, tables: Tables) -> int:
+    """Return the answer that two uniform numbers in [0, 1) select by Eq. 6 and Table I."""
+    if about == NOBODY or speaks >= rate:
+        return SILENT
+    truthful = means < tables.p_truth
+    return YES if truthful == (about == desired) else NO
+
+
+@inlined
+def live_step(
+    belief: Vector, smoothed: float, desired: int, asked: int, rate: float, work: Vector, state: RandomState, tables: Tables
+) -> None:
+    """Replace a belief by that after a step of a person drawn from the model: words, pointing and an answer.
+
+    asked: i_r after the robot's action; work: (n_items,), memory.
+    """
+    hear(belief, smoothed, desired, work, state, tables)
+    speaks, means = uniform(state), uniform(state)
+    answer = select_answer(desired, asked, rate, speaks, means, tables)
+    answered(work, asked, answer, rate, belief, tables)
+
+
+@inlined
 def largest(belief: Vector) -> float:
     """Return the largest belief."""
     found = float(belief[0])

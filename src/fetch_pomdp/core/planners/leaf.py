@@ -37,10 +37,11 @@ class Leaf(NamedTuple):
 
 
 class Leading(NamedTuple):
-    """The two leading items and the three largest beliefs."""
+    """The three leading items and their beliefs, largest first; with fewer items a belief is 0 and its item 0."""
 
     first: int
     second: int
+    third: int
     b1: float
     b2: float
     b3: float
@@ -57,17 +58,17 @@ def leaf_of(patient: bool, tables: Tables) -> Leaf:
 @inlined
 def leading(belief: Vector) -> Leading:
     """Return the leaders of a belief; beliefs that do not exist count as 0."""
-    first, second, b1, b2, b3 = 0, 0, 0.0, 0.0, 0.0
+    first, second, third, b1, b2, b3 = 0, 0, 0, 0.0, 0.0, 0.0
     for item in range(len(belief)):
         chance = belief[item]
         if chance > b3:
             if chance > b1:
-                first, second, b1, b2, b3 = item, first, chance, b1, b2
+                first, second, third, b1, b2, b3 = item, first, second, chance, b1, b2
             elif chance > b2:
-                second, b2, b3 = item, chance, b2
+                second, third, b2, b3 = item, second, chance, b2
             else:
-                b3 = chance
-    return Leading(first, second, b1, b2, b3)
+                third, b3 = item, chance
+    return Leading(first, second, third, b1, b2, b3)
 
 
 @inlined

@@ -30,16 +30,22 @@ def searched(
         _compiled.add(kernel)
         _log.info("loading the compiled planner; the first time after installation it is compiled, for some seconds")
     probabilities = belief.probabilities
-    about = NOBODY if asked is None else asked
-    if len(probabilities) != problem.n_items or not NOBODY <= about < problem.n_items:  # compiled code checks no index
-        found = f"found a belief over {len(probabilities)} items and a question about item {asked}"
-        raise PlannerError(f"{found}, expected the {problem.n_items} items of the problem", field="belief")
+    about = checked_asked(probabilities, asked, problem)
     seed = int(rng.random() * 2.0**53)
     wait, point, pick, wait_error, point_errors = kernel(probabilities, about, search, seed, problem.tables)
     if search.questions == 0:
         point = unvalued(problem)
         return Decision(best_action(wait, point, pick), wait, point, pick, wait_error)
     return Decision(best_action(wait, point, pick), wait, point, pick, wait_error, point_errors)
+
+
+def checked_asked(probabilities: Vector, asked: int | None, problem: Problem) -> int:
+    """Return i_r for compiled code, which checks no index. Raises PlannerError if a belief or i_r is of another table."""
+    about = NOBODY if asked is None else asked
+    if len(probabilities) != problem.n_items or not NOBODY <= about < problem.n_items:
+        found = f"found a belief over {len(probabilities)} items and a question about item {asked}"
+        raise PlannerError(f"{found}, expected the {problem.n_items} items of the problem", field="belief")
+    return about
 
 
 def last_action(problem: Problem, belief: Belief) -> Decision:

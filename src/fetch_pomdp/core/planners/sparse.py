@@ -10,10 +10,6 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector, compiled, inlined, lean, uniform
 from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, whole_number
 from fetch_pomdp.core.planners.kernels import (
-    NO,
-    NOBODY,
-    SILENT,
-    YES,
     RootValues,
     Search,
     Work,
@@ -24,6 +20,7 @@ from fetch_pomdp.core.planners.kernels import (
     hear,
     largest,
     root_values,
+    select_answer,
     workspace,
 )
 from fetch_pomdp.core.planners.root import last_action, searched
@@ -131,12 +128,3 @@ def last_two_sampled(level: int, search: Search, work: Work, tables: Tables) -> 
 def spread(speaks: float, means: float) -> tuple[float, float]:
     """Return the next point of a sequence that fills the unit square evenly (Roberts 2018, the R2 sequence)."""
     return (speaks + 0.7548776662466927) % 1.0, (means + 0.5698402909980532) % 1.0
-
-
-@inlined
-def select_answer(desired: int, about: int, rate: float, speaks: float, means: float, tables: Tables) -> int:
-    """Return the answer that two uniform numbers in [0, 1) select by Eq. 6 and Table I."""
-    if about == NOBODY or speaks >= rate:
-        return SILENT
-    truthful = means < tables.p_truth
-    return YES if truthful == (about == desired) else NO
