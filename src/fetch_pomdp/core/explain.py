@@ -10,7 +10,7 @@ from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.evidence import Evidence
-from fetch_pomdp.core.explanation import AS_LIKELY, Explanation, Option
+from fetch_pomdp.core.explanation import AS_LIKELY, Explanation, Option, Rival
 from fetch_pomdp.core.planners.base import Decision
 
 
@@ -23,20 +23,16 @@ def explain(decision: Decision, belief: Belief, evidence: Evidence) -> Explanati
     likeliest = int(chances.argmax())
     item = likeliest if isinstance(decision.action, Wait) else decision.action.item
     chance, rival = float(chances[item]), _rival(chances, item, likeliest)
-    asked_about = _best(decision.point, item)
-    picked = _best(decision.pick, item)
     return Explanation(
         chosen=_chosen(decision),
         item=item,
-        rival=rival,
         belief=chance,
-        rival_belief=0.0 if rival is None else float(chances[rival]),
-        log_odds=None if rival is None else evidence.log_odds(item, rival),
+        rival=None if rival is None else Rival(rival, float(chances[rival]), evidence.log_odds(item, rival)),
         as_likely=int(np.count_nonzero(np.abs(chances - chance) <= AS_LIKELY * chance)),
         n_items=len(chances),
         wait=_wait(decision),
-        question=_question(decision, asked_about),
-        pick=_pick(decision, picked),
+        question=_question(decision, _best(decision.point, item)),
+        pick=_pick(decision, _best(decision.pick, item)),
         unanswered=evidence.unanswered,
     )
 

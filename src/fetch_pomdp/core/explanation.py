@@ -32,16 +32,23 @@ class Option:
         return not math.isnan(self.value)
 
 
+@dataclass(frozen=True, slots=True)
+class Rival:
+    """The likeliest other item, its probability, and the log-odds of the item in question against it."""
+
+    item: int
+    belief: float
+    log_odds: LogOdds
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Explanation:
     """The reasons of a decision. Beliefs are probabilities, values expected returns."""
 
     chosen: Option
     item: int  # what the decision is about; a wait is about the likeliest item
-    rival: int | None  # the likeliest other item; None on a table of one
     belief: float  # in `item`
-    rival_belief: float
-    log_odds: LogOdds | None  # of `item` against `rival`, by modality
+    rival: Rival | None  # None on a table of one item
     as_likely: int  # how many items are as likely as `item`, itself included
     n_items: int
     wait: Option
@@ -60,7 +67,16 @@ class Explanation:
 
         NaN where the planner values no question, or nothing else.
         """
-        return self.question.value - _highest(self.wait, self.pick).value
+        return self.question.value - self._without.value
+
+    @property
+    def gain_error(self) -> float:
+        """Standard error of the gain, as `margin_error` is that of the margin."""
+        return _error(self.question, self._without)
+
+    @property
+    def _without(self) -> Option:
+        return _highest(self.wait, self.pick)
 
     @property
     def runner_up(self) -> Option:
@@ -79,7 +95,7 @@ class Explanation:
 
         Planners share samples among actions, so that the margin is mostly surer than this.
         """
-        return math.hypot(self.chosen.error, self.runner_up.error) if not math.isnan(self.margin) else math.nan
+        return _error(self.chosen, self.runner_up)
 
     @property
     def close(self) -> bool:
@@ -94,10 +110,10 @@ class Explanation:
         """Return why, without the decision itself."""
         known = _knowledge(self, scene)
         if isinstance(self.action, Point) or (isinstance(self.action, Wait) and not self.chosen.valued):
-            worth = _prices(self, scene)
+            stake = _prices(self, scene)
         else:
-            worth = _values(self, scene)
-        return "; ".join(part for part in (known, worth) if part)
+            stake = _values(self, scene)
+        return "; ".join(part for part in (known, stake) if part)
 
 
 def deed(action: Action, scene: Scene) -> str:
@@ -113,6 +129,10 @@ def _highest(*options: Option) -> Option:
     return max(options, key=lambda option: option.value if option.valued else -math.inf)
 
 
+def _error(first: Option, second: Option) -> float:
+    return math.hypot(first.error, second.error) if first.valued and second.valued else math.nan
+
+
 # What is known: the first half of a sentence.
 
 
@@ -121,24 +141,24 @@ def _knowledge(why: Explanation, scene: Scene) -> str:
     if why.unanswered is not None and _awaited(why.action, why.unanswered):
         about = scene.items[why.unanswered].id if isinstance(why.action, Wait) else "it"
         return f"the question about {about} is still unanswered"
-    if why.rival is None or why.log_odds is None:
+    if why.rival is None:
         return f"{item} is the only item"
     if why.as_likely == why.n_items:
         return f"nothing tells the {why.n_items} items apart yet"
     if why.belief >= CERTAIN:
-        return f"{item} is certain" if why.rival_belief == 0.0 else f"{item} is all but certain"
-    return _standing(why, why.log_odds, item, scene)
+        return f"{item} is certain" if why.rival.belief == 0.0 else f"{item} is all but certain"
+    return _standing(why, why.rival, item, scene)
 
 
-def _standing(why: Explanation, odds: LogOdds, item: str, scene: Scene) -> str:
+def _standing(why: Explanation, against: Rival, item: str, scene: Scene) -> str:
     """Return how the item stands to its rival."""
-    named, rival = scene.items[why.item].id, scene.items[why.rival or 0].id
+    odds, named, rival = against.log_odds, scene.items[why.item].id, scene.items[against.item].id
     if min(odds.words, odds.pointing) <= -TELLING and max(odds.words, odds.pointing) >= TELLING:
         words, pointed = (named, rival) if odds.words > 0 else (rival, named)
         return f"speech favours {words} {_ratio(odds.words)} to 1, pointing {pointed} {_ratio(odds.pointing)} to 1"
     if isinstance(why.action, Pick) and odds.total >= NEAR:
         return f"{item} is {_percent(why.belief)} likely{_source(odds)}"
-    if abs(why.belief - why.rival_belief) <= AS_LIKELY * why.belief:
+    if abs(why.belief - against.belief) <= AS_LIKELY * why.belief:
         others = rival if why.as_likely <= 2 else f"{why.as_likely - 1} others"
         return f"{item} and {others} are equally likely"
     if abs(odds.total) < NEAR:
@@ -183,8 +203,8 @@ def _values(why: Explanation, scene: Scene) -> str:
         return ""
     kinds = (option for option in (why.wait, why.question, why.pick) if type(option.action) is not type(why.action))
     others = sorted((option for option in kinds if option.valued), key=lambda option: -option.value)
-    said = [f"{_doing(why.action)} is worth {_worth(why.chosen.value, scene)}"]
-    said += [f"{_doing(option.action)} {_worth(option.value, scene)}" for option in others]
+    said = [f"{_doing(why.action)} is worth {worth(why.chosen.value, scene)}"]
+    said += [f"{_doing(option.action)} {worth(option.value, scene)}" for option in others]
     before = ", ".join(said[:-1])
     return (f"{before} and {said[-1]}" if before else said[-1]) + _doubt(why)
 
@@ -198,7 +218,7 @@ def _prices(why: Explanation, scene: Scene) -> str:
     text = f"a wrong pick {wrong}, {price}"
     if math.isnan(why.margin):
         return text
-    other, difference = _doing(why.runner_up.action), _worth(abs(why.margin), scene)
+    other, difference = _doing(why.runner_up.action), worth(abs(why.margin), scene)
     if why.margin < 0:
         return f"{text}, though {other} is worth {difference} more{_doubt(why)}"
     return f"{text}, and asking is worth {difference} more than {other}{_doubt(why)}"
@@ -216,7 +236,7 @@ def _cost(reward: float) -> str:
     return f"{-reward:,.0f}" if reward <= -10_000 else f"{-reward:.4g}" if reward else "nothing"
 
 
-def _worth(value: float, scene: Scene) -> str:
+def worth(value: float, scene: Scene) -> str:
     """Return an expected return, to as many digits as the rewards of the scene call for."""
     spread = scene.rewards.pick_correct - scene.rewards.pick_wrong
     text = f"{value:.{min(max(3 - math.floor(math.log10(spread)), 0), 12)}f}"
