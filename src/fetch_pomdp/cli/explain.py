@@ -17,7 +17,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted
 from fetch_pomdp.core.evidence import LogOdds
-from fetch_pomdp.core.explanation import Explanation, Option, Rival, worth
+from fetch_pomdp.core.explanation import Explanation, Option, worth
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.events import action_to_json
@@ -100,8 +100,9 @@ def show_decision(decision: Decision, agent: Agent, console: Console, *, explain
     for name, option in (("waiting is worth", why.wait), ("the best question is expected to gain", gain)):
         if option.valued:
             console.print(Padding(f"{name} {_with_error(option, agent.scene)}", INDENT))
-    if why.rival is not None:
-        console.print(Padding(_log_odds(why.item, why.rival, agent.scene), INDENT))
+    others = [index for index in _shown(decision, agent) if index != why.item]
+    if others:
+        console.print(Padding(_log_odds(why.item, others, agent), INDENT))
 
 
 def _values(decision: Decision, agent: Agent) -> Table:
@@ -127,14 +128,15 @@ def _shown(decision: Decision, agent: Agent) -> list[int]:
     return likeliest if about is None or about in likeliest else [*likeliest[:-1], about]
 
 
-def _log_odds(item: int, rival: Rival, scene: Scene) -> Table:
-    """Return what each modality says of an item against its rival."""
-    named = _named(rival.log_odds)
-    table = Table(f"{escape(scene.items[item].id)} against {escape(scene.items[rival.item].id)}", box=None)
-    table.padding = (0, 2, 0, 0)
-    for name in named:
+def _log_odds(item: int, others: list[int], agent: Agent) -> Table:
+    """Return what each modality says of an item against others."""
+    items = agent.scene.items
+    table = Table(f"log-odds of {escape(items[item].id)} to", box=None, padding=(0, 2, 0, 0))
+    for name in _named(agent.evidence.log_odds(item, item)):
         table.add_column(name, justify="right")
-    table.add_row("log-odds", *(f"{odds:+.2f}" for odds in named.values()))
+    for other in others:
+        odds = _named(agent.evidence.log_odds(item, other))
+        table.add_row(escape(items[other].id), *(f"{part:+.2f}" for part in odds.values()))
     return table
 
 
