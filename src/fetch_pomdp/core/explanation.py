@@ -191,7 +191,7 @@ def _ratio(odds: float) -> str:
 
 
 def _percent(chance: float) -> str:
-    return f"{chance:.0%}" if 0.01 <= chance < 0.99 else f"{chance:.1%}"
+    return f"{chance:.0%}" if 0.015 <= chance < 0.985 else f"{chance:.1%}"
 
 
 # What is at stake: the second half.
