@@ -4,6 +4,9 @@ from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.evidence import Evidence
+from fetch_pomdp.core.explain import explain
+from fetch_pomdp.core.explanation import Explanation
 from fetch_pomdp.core.generative import State, step
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.interaction import Timing, interact
@@ -27,7 +30,9 @@ __all__ = [
     "Belief",
     "Decision",
     "Event",
+    "Evidence",
     "ExactAnswers",
+    "Explanation",
     "FetchPomdpError",
     "Frame",
     "InputError",
@@ -54,6 +59,7 @@ __all__ = [
     "Timing",
     "Wait",
     "Word",
+    "explain",
     "interact",
     "simulate",
     "step",

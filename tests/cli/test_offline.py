@@ -59,7 +59,7 @@ def test_decide_prints_the_action_and_every_value(run: Run, tmp_path: Path) -> N
     code, out, _ = run("decide", path, "--planner", "sparse", "--depth", 2, "--width", 50, "--seed", 3)
     decision = json.loads(out)
     assert code == 0
-    assert list(decision) == ["action", "item", "values"]
+    assert list(decision) == ["action", "item", "values", "errors", "explanation"]
     assert set(decision["values"]["point"]) == set(decision["values"]["pick"])
     chance = 6 * 99 / (6 + 10 * 99)
     assert decision["values"]["pick"]["marker-2"] == pytest.approx(22.5 * chance - 12.5)

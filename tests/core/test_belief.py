@@ -206,7 +206,7 @@ def test_a_prior_is_normalised_within_its_tolerance() -> None:
 @pytest.mark.parametrize("asked", [None, 1])
 def test_parts_of_an_observation_are_independent(asked: int | None) -> None:
     ray = Ray((0.0, 0.0, 1.6), (0.5, 2.0, 0.75))
-    found = observations.log_likelihood(Observation(("tea", "no"), ray), asked, UNEQUAL, 0.4)
+    found = observations.log_likelihoods(Observation(("tea", "no"), ray), asked, UNEQUAL, 0.4).together()
     world = world_of(UNEQUAL)
     for item in range(4):
         expected = oracle.base_chance(["tea"], item, world) * oracle.response_chance(["no"], item, asked, world, 0.4)

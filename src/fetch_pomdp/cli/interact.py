@@ -16,8 +16,9 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
+from fetch_pomdp.cli.explain import decision_to_json
 from fetch_pomdp.cli.options import Depth, Json, PlannerName, SceneName, Seed, Width, warm_up
-from fetch_pomdp.cli.show import belief_to_json, decision_to_json, show_event
+from fetch_pomdp.cli.show import belief_to_json, show_event
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
@@ -147,5 +148,5 @@ def _follow(events: Iterator[Event], agent: Agent, said: list[str], console: Con
 def _as_line(event: Event, agent: Agent) -> dict[str, object]:
     fields = {**event_to_json(event, agent.scene), **belief_to_json(agent)}
     if isinstance(event, Acted) and event.decision is not None:
-        fields["values"] = decision_to_json(event.decision, agent.scene)["values"]
+        fields = {**decision_to_json(event.decision, agent.scene), **fields}
     return fields

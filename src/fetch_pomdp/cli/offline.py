@@ -11,9 +11,10 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from fetch_pomdp.cli.explain import decision_to_json, show_decision
 from fetch_pomdp.cli.options import Depth, Json, PlannerName, SceneName, Seed, Width, as_json, built_planner, warm_up
-from fetch_pomdp.cli.show import belief_to_json, decision_to_json, show_event
-from fetch_pomdp.core.events import Acted, Observed
+from fetch_pomdp.cli.show import belief_to_json, show_event
+from fetch_pomdp.core.events import Observed
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import simulate as simulated
@@ -45,10 +46,12 @@ def decide(
     depth: Depth = None,
     width: Width = None,
     seed: Seed = None,
+    explain: Annotated[bool, typer.Option("--explain", help="On a terminal: the numbers behind it too.")] = False,
     json_lines: Json = False,
 ) -> None:
-    """Print what the robot would do at the end of a recorded interaction, and the value of every action.
+    """Print what the robot would do at the end of a recorded interaction, and why.
 
+    On a terminal a sentence; with --json, or into a file or pipe, an object with the value of every action too.
     Planner and seed are those of the recording unless given, so the decisions of a log come out again.
     """
     recording = read_recording(events)
@@ -64,8 +67,7 @@ def decide(
     if as_json(json_lines):
         print(json.dumps(decision_to_json(decision, agent.scene), ensure_ascii=False))
         return
-    console = Console(highlight=False)
-    show_event(Acted(decision.action, decision=decision), agent, console)
+    show_decision(decision, agent, Console(highlight=False), explained=explain)
 
 
 def simulate(

@@ -1,4 +1,4 @@
-"""How beliefs, events and decisions look on a terminal, and as JSON."""
+"""How beliefs and events look on a terminal, and as JSON."""
 
 from __future__ import annotations
 
@@ -8,18 +8,16 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 from rich.markup import escape
+from rich.table import Table
 
 from fetch_pomdp.core import language
-from fetch_pomdp.core.action import Pick, Point
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.explanation import deed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.words import COURTESY
-from fetch_pomdp.files.events import action_to_json
 
 BAR = 28  # characters of a belief of 1
 MOST_BARS = 8  # items shown of a larger scene, the likeliest
@@ -32,22 +30,6 @@ def belief_to_json(agent: Agent) -> dict[str, Any]:
     return {"belief": dict(zip(ids, agent.belief.tolist(), strict=True)), "asked": asked}
 
 
-def decision_to_json(decision: Decision, scene: Scene) -> dict[str, Any]:
-    """Return the action, its item's id or null, and the value of every action; null where the planner gives none."""
-    ids = [item.id for item in scene.items]
-    values = {
-        "wait": _number(decision.wait),
-        "point": {id: _number(value) for id, value in zip(ids, decision.point.tolist(), strict=True)},
-        "pick": {id: _number(value) for id, value in zip(ids, decision.pick.tolist(), strict=True)},
-    }
-    action = action_to_json(decision.action, scene)
-    return {"action": action["action"], "item": action.get("item"), "values": values}
-
-
-def _number(value: float) -> float | None:
-    return None if math.isnan(value) else value
-
-
 def show_event(event: Event, agent: Agent, console: Console) -> None:
     """Print what happened, and the belief after something was heard or seen."""
     time = "" if event.time is None else f"{event.time:5.1f} s  "
@@ -56,8 +38,11 @@ def show_event(event: Event, agent: Agent, console: Console) -> None:
         if event.observation != Observation():
             show_belief(agent, console)
     else:
-        reason = "" if event.decision is None else f"  [dim]{why(event.decision, agent.scene)}[/dim]"
-        console.print(f"[dim]{time}[/dim][bold]{_acted(event, agent.scene)}[/bold]{reason}", soft_wrap=True)
+        why = None if event.decision is None else event.decision.explanation
+        reason = "" if why is None else f"[dim]: {escape(why.reason(agent.scene))}[/dim]"
+        line = Table.grid()
+        line.add_row(f"[dim]{time}[/dim]", f"[bold]{_acted(event, agent.scene)}[/bold]{reason}")
+        console.print(line)
 
 
 def _perceived(event: Observed, agent: Agent) -> str:
@@ -76,32 +61,8 @@ def _perceived(event: Observed, agent: Agent) -> str:
 
 
 def _acted(event: Acted, scene: Scene) -> str:
-    text = described(event, scene)
-    return text if event.done else f"{text}: {event.outcome.value}"
-
-
-def described(event: Acted, scene: Scene) -> str:
-    """Return an action in a few words."""
-    if isinstance(event.action, Point):
-        return f"asks about {escape(scene.items[event.action.item].id)}"
-    if isinstance(event.action, Pick):
-        return f"picks {escape(scene.items[event.action.item].id)}"
-    return "waits"
-
-
-def why(decision: Decision, scene: Scene) -> str:
-    """Return the best action of each kind with its expected return."""
-    parts = [f"pick {_best(decision.pick, scene)}"]
-    if not np.isnan(decision.point).any():
-        parts.append(f"ask about {_best(decision.point, scene)}")
-    if not math.isnan(decision.wait):
-        parts.append(f"wait {decision.wait:+.2f}")
-    return "expects " + ", ".join(parts)
-
-
-def _best(values: Vector, scene: Scene) -> str:
-    index = int(values.argmax())
-    return f"{escape(scene.items[index].id)} {values[index]:+.2f}"
+    text = escape(deed(event.action, scene))
+    return text if event.done else f"{text} ({event.outcome.value})"
 
 
 def show_belief(agent: Agent, console: Console) -> None:

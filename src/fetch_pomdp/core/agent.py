@@ -12,10 +12,13 @@ import numpy.typing as npt
 
 from fetch_pomdp.checks import Point3, shown
 from fetch_pomdp.core import language
+from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Event, Observed
+from fetch_pomdp.core.evidence import Evidence
+from fetch_pomdp.core.explain import explain
 from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import Utterance
@@ -58,12 +61,18 @@ class Agent:
         if len(self._belief.log_probabilities) != self.problem.n_items:
             found = len(self._belief.log_probabilities)
             raise ObservationError(f"found {found} probabilities, expected {self.problem.n_items}", field="prior")
+        self._evidence = Evidence.none(self._belief.log_probabilities)
         self._steps = 0
 
     @property
     def belief(self) -> Vector:
         """The probability that each item is the desired one, (n_items,), in the order of `scene.items`."""
         return self._belief.probabilities
+
+    @property
+    def evidence(self) -> Evidence:
+        """What words, answers and pointing have each contributed to the belief."""
+        return self._evidence
 
     @property
     def scene(self) -> Scene:
@@ -87,14 +96,18 @@ class Agent:
 
     def update(self, observation: Observation) -> Utterance:
         """Take in an observation; return how its words were understood."""
-        self._belief = self._belief.updated(observation, self.asked, self.problem)
+        utterance = language.split(observation.words, self.problem)
+        parts = observations.log_likelihoods(observation, self.asked, self.problem, self.problem.model.p_l)
+        self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
+        self._evidence = self._evidence.plus(parts, answered=bool(utterance.response))
         self._steps += 1
-        return language.split(observation.words, self.problem)
+        return utterance
 
     def decide(self) -> Decision:
-        """Return what the planner would do now, and the value of every action; nothing changes."""
+        """Return what the planner would do now, the value of every action, and why; nothing changes."""
         rng = np.random.default_rng((self.seed, self._steps))
-        return self.planner.decide(self.problem, self._belief, self.asked, rng=rng)
+        decision = self.planner.decide(self.problem, self._belief, self.asked, rng=rng)
+        return dataclasses.replace(decision, explanation=explain(decision, self._belief, self._evidence))
 
     def act(self) -> Action:
         """Decide, and go on as if the robot had done it."""
@@ -107,6 +120,8 @@ class Agent:
         if not isinstance(action, Wait) and not 0 <= action.item < self.problem.n_items:
             raise ActionError(f"found item {action.item}, expected an index below {self.problem.n_items}", field="item")
         self.asked = asked_after(action, self.asked)
+        if isinstance(action, Point):
+            self._evidence = self._evidence.asked(action.item)
         self._steps += 1
 
     def take(self, event: Event) -> None:

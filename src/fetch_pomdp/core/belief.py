@@ -8,7 +8,7 @@ import numpy.typing as npt
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.compiled import Vector, compiled
-from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.observation import Observation, Parts
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import BeliefError
 
@@ -52,14 +52,19 @@ class Belief:
         """The probabilities in scene order, (n_items,); they sum to 1."""
         return np.asarray(np.exp(self._log))
 
-    def updated(self, observation: Observation, asked: int | None, problem: Problem) -> Belief:
+    def updated(
+        self, observation: Observation, asked: int | None, problem: Problem, *, parts: Parts | None = None
+    ) -> Belief:
         """Return the belief after an observation (Bayes' rule with Eq. 1-7). asked: index of i_r, or None.
+
+        parts: its log-likelihoods, from whoever has computed them already.
 
         What scales all items alike cancels; so the action before does not matter here, and responses are read by
         Table I. Raises BeliefError if the observation is impossible for every item that the belief allows.
         """
-        likelihood = observations.log_likelihood(observation, asked, problem, problem.model.p_l)
-        log, possible = _posterior(self._log, likelihood)
+        if parts is None:
+            parts = observations.log_likelihoods(observation, asked, problem, problem.model.p_l)
+        log, possible = _posterior(self._log, parts.together())
         if not possible:
             about = "no question" if asked is None else f"a question about {problem.scene.items[asked].id!r}"
             found = f"found {shown(observation)} after {about}, expected an observation with a chance above 0"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from numpy.random import Generator
 
@@ -20,16 +21,32 @@ class Observation:
     ray: Ray | None = None
 
 
-def log_likelihood(observation: Observation, asked: int | None, problem: Problem, rate: float) -> Vector:
-    """Log p(o | i_d, i_r) for each item as the desired one (Eq. 1-3): its three parts are independent given the state.
+class Parts(NamedTuple):
+    """The three factors of Eq. 3 as logarithms, each (n_items,): a fresh array that the caller may keep."""
 
-    asked: index of i_r, or None. rate: chance of a response, see `language.answer_rate`. Returns (n_items,).
+    words: Vector  # log p(l_b | i_d)
+    answers: Vector  # log p(l_r | i_d, i_r)
+    pointing: Vector  # log p(g | i_d)
+
+    def together(self) -> Vector:
+        """Return their sum, log p(o | i_d, i_r), (n_items,)."""
+        result = self.words + self.answers
+        result += self.pointing
+        return result
+
+
+def log_likelihoods(observation: Observation, asked: int | None, problem: Problem, rate: float) -> Parts:
+    """Log p(o | i_d, i_r) for each item as the desired one (Eq. 1-3), part by part: given the state they are
+    independent.
+
+    asked: index of i_r, or None. rate: chance of a response, see `language.answer_rate`.
     """
     utterance = language.split(observation.words, problem)
-    result = language.base_log_likelihood(utterance.base, problem)
-    result += language.response_log_likelihood(utterance.response, asked, problem, rate)
-    result += gesture.log_likelihood(observation.ray, problem)
-    return result
+    return Parts(
+        language.base_log_likelihood(utterance.base, problem),
+        language.response_log_likelihood(utterance.response, asked, problem, rate),
+        gesture.log_likelihood(observation.ray, problem),
+    )
 
 
 def sample(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Observation:

@@ -12,6 +12,7 @@ from fetch_pomdp.checks import shown
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.explanation import Explanation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import PlannerError
 
@@ -31,6 +32,7 @@ class Decision:
     pick: Vector  # (n_items,), handing each item over
     wait_error: float = 0.0
     point_error: Vector | None = None  # (n_items,)
+    explanation: Explanation | None = None  # filled in by Agent.decide
 
     @property
     def value(self) -> float:
