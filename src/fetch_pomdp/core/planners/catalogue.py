@@ -12,6 +12,7 @@ from fetch_pomdp.core.planners.exact import ExactAnswers
 from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
 from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.errors import PlannerError
 
 DEFAULT = "fitted"
@@ -19,6 +20,7 @@ PLANNERS: Mapping[str, Callable[..., Planner]] = {
     "fitted": FittedValue,
     "exact": ExactAnswers,
     "sparse": SparseSampling,
+    "threshold": Threshold,
     "never": NeverAsk,
     "always": AlwaysAsk,
 }
