@@ -13,9 +13,12 @@ from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision, Planner
+from fetch_pomdp.core.planners.batch import decide_many
 from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
 from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.planners.thresholds import Threshold, tuned
 from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
@@ -34,6 +37,7 @@ __all__ = [
     "ExactAnswers",
     "Explanation",
     "FetchPomdpError",
+    "FittedValue",
     "Frame",
     "InputError",
     "Item",
@@ -56,11 +60,14 @@ __all__ = [
     "SparseSampling",
     "State",
     "Summary",
+    "Threshold",
     "Timing",
     "Wait",
     "Word",
+    "decide_many",
     "explain",
     "interact",
     "simulate",
     "step",
+    "tuned",
 ]

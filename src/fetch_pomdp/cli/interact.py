@@ -73,7 +73,7 @@ def fetch(
         typed = audio is None and skeleton is None
         ears, eyes = _typed(table, console) if typed else _sensors(table, audio, skeleton, rate)
         record = open_files.enter_context(EventLog.create(log, header)) if log else None
-        warm_up(agent.planner)
+        warm_up(agent.planner, agent.problem)
         said: list[str] = []
         timing = Timing(wait=1.0, question=1.0) if typed else Timing()
         events = interact(agent, ConsoleRobot(said.append), ears, eyes, timing=timing)

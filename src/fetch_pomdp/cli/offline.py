@@ -62,7 +62,7 @@ def decide(
     agent = recording.header.agent(planner=planner, seed=seed, depth=depth, width=width)
     for _ in recording.replay(agent):
         pass
-    warm_up(agent.planner)
+    warm_up(agent.planner, agent.problem)
     decision = agent.decide()
     if as_json(json_lines):
         print(json.dumps(decision_to_json(decision, agent.scene), ensure_ascii=False))
@@ -86,7 +86,7 @@ def simulate(
     """
     problem = Problem(Scene.load(scene))
     chosen = built_planner(planner, depth=depth, width=width)
-    warm_up(chosen)
+    warm_up(chosen, problem)
     summary = dataclasses.asdict(simulated(problem, chosen, episodes, seed or 0))
     if as_json(json_lines):
         print(json.dumps(summary))

@@ -13,7 +13,6 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Planner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.scene import Scene
 
 SceneName = Annotated[
     str, typer.Argument(metavar="SCENE", help="ambiguous, unambiguous, or the path of a TOML file (docs/scenes.md).")
@@ -37,14 +36,13 @@ def as_json(asked: bool) -> bool:
     return asked or not sys.stdout.isatty()
 
 
-def warm_up(planner: Planner) -> None:
-    """Load the compiled planner, and say so on standard error where that takes long: the first time it is compiled."""
+def warm_up(planner: Planner, problem: Problem) -> None:
+    """Load the compiled planner and let it solve the problem; say so on standard error where compiling takes long."""
     message = "Compiling the planner, once after installation where its cache can be written: up to half a minute ..."
     timer = threading.Timer(PATIENCE, lambda: print(message, file=sys.stderr, flush=True))
     timer.daemon = True
     timer.start()
     try:
-        problem = Problem(Scene.load("ambiguous"))
         planner.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
     finally:
         timer.cancel()

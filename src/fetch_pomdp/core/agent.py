@@ -25,7 +25,7 @@ from fetch_pomdp.core.language import Utterance
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision, Planner, whole_number
-from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.core.words import tokenize
@@ -35,7 +35,7 @@ from fetch_pomdp.errors import ActionError, ObservationError
 class Agent:
     """Observes, keeps a belief and decides; everything else it leaves to its planner.
 
-    scene: a Scene, the name of a built-in one, or the path of a TOML file. planner: ExactAnswers() unless given.
+    scene: a Scene, the name of a built-in one, or the path of a TOML file. planner: FittedValue() unless given.
     model, rewards: those of the scene unless given, as a whole or as a mapping of changes. The decision after k
     observations and actions depends on the seed, on k and on what happened, not on how often `decide` was called.
     """
@@ -54,7 +54,7 @@ class Agent:
         changed_model = model if isinstance(model, Model) else table.model.with_changes(model or {})
         changed_rewards = rewards if isinstance(rewards, Rewards) else table.rewards.with_changes(rewards or {})
         self.problem = Problem(dataclasses.replace(table, model=changed_model, rewards=changed_rewards))
-        self.planner: Planner = planner if planner is not None else ExactAnswers()
+        self.planner: Planner = planner if planner is not None else FittedValue()
         self.seed = whole_number(seed, 0, 2**63 - 1, "seed")
         self.asked: int | None = None  # i_r, as an index into the scene's items
         self._belief = Belief.uniform(self.problem.n_items) if prior is None else Belief(prior)

@@ -40,7 +40,7 @@ class Interactions:
         return cls(desired, people, beliefs, asked, np.zeros(count), *numbers)
 
     def advance(self, active: Integers, actions: Integers, problem: Problem) -> None:
-        """Do the actions, (m,) as in `planners.batch`, in the active interactions, (m,); people then speak and point."""
+        """Do actions, (m,) as in `planners.batch`, in the active interactions, (m,); people then speak and point."""
 
         def share(begin: int, end: int) -> None:
             _advance(

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Vector, compiled, inlined, lean
-from fetch_pomdp.core.planners.kernels import NOBODY, NO, YES
+from fetch_pomdp.core.planners.kernels import NO, NOBODY, YES
 from fetch_pomdp.core.planners.leaf import Leading, leaf_of, leaf_value
 from fetch_pomdp.core.planners.pairs import pair_class
 from fetch_pomdp.core.problem import Tables

@@ -35,17 +35,15 @@ from fetch_pomdp.core.planners.kernels import NOBODY, live_step
 from fetch_pomdp.core.planners.leaf import Leading, leading
 from fetch_pomdp.core.planners.outlook import DistinctWords, look, outlook_size, smoothed_mass
 from fetch_pomdp.core.planners.pairs import class_breaks, closeness, pair_class
+from fetch_pomdp.core.planners.surface import ANCHOR, add_row, corner, smoothness
 from fetch_pomdp.core.problem import Problem, Tables
 
 ROUNDS, SWEEPS = 3, 10
 LONGEST = 30  # steps of an interaction
 EXPLORES = 0.25  # share of the steps that explore: half of them wait, and more ask about the first than the second
 MOST_PATIENCE = 12  # steps before which an interaction may not pick, at the most
-SMOOTHNESS = 0.2  # weight of a squared second difference, as of so many backups
-ANCHOR = 1e-3  # weight of the table before, so that a cell never met stays
 ANSWERED = 0.2  # i_r that is no leader counts as answered up to this share of b2
 CERTAIN = 0.05  # b2 below which a pair is none
-WIDTH = 2 * COLUMNS + 1  # of the band: second differences reach two rows
 UNFITTED = KINDS  # a wait between two kinds
 
 # A belief met: its leading items, where it lies in the table, i_r and the kind of a wait.
@@ -74,32 +72,13 @@ def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> 
     nexts = np.zeros((count, size - 1), NEXT)
     for number in range(ROUNDS):
         meet(table, nodes, nexts, random_state(seed + 1 + number), distinct, tables)
-        lower = np.repeat(smooth[None], (len(breaks) + 1) * KINDS, axis=0).reshape(len(breaks) + 1, KINDS, *smooth.shape)
+        lower = np.repeat(smooth[None], (len(breaks) + 1) * KINDS, axis=0).reshape(
+            len(breaks) + 1, KINDS, *smooth.shape
+        )
         normal_matrices(nodes, lower)
         for _ in range(SWEEPS):
             sweep(table, nodes, nexts, lower, tables)
     return table
-
-
-def smoothness() -> Vector:
-    """Return the penalty on second differences of a table's entries, as a band (see `planners.bands`)."""
-    band = np.zeros((ROWS * COLUMNS, WIDTH))
-    for row in range(ROWS):
-        for column in range(COLUMNS):
-            here = row * COLUMNS + column
-            for inside, apart in ((0 < row < ROWS - 1, COLUMNS), (0 < column < COLUMNS - 1, 1)):
-                if inside:
-                    add_outer(band, (here - apart, here, here + apart), (1.0, -2.0, 1.0), SMOOTHNESS)
-    band[:, -1] += ANCHOR
-    return band
-
-
-def add_outer(band: Vector, places: tuple[int, int, int], weights: tuple[float, float, float], scale: float) -> None:
-    """Add the outer product of a sparse vector with itself to a band."""
-    for row, one in zip(places, weights, strict=True):
-        for column, other in zip(places, weights, strict=True):
-            if column <= row:
-                band[row, column - row + WIDTH - 1] += scale * one * other
 
 
 @compiled
@@ -129,9 +108,7 @@ def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tabl
 
 
 @lean
-def explored(
-    belief: Vector, asked: int, patient: bool, table: ValueTable, state: RandomState, tables: Tables
-) -> int:
+def explored(belief: Vector, asked: int, patient: bool, table: ValueTable, state: RandomState, tables: Tables) -> int:
     """Return the table's action, or now and then another that goes on; a patient robot does not pick.
 
     NOBODY is a wait, an item below n_items a question about it, n_items and more a pick.
@@ -225,9 +202,7 @@ def marked(nodes: Any, index: int, slot: int) -> int:
 
 
 @lean
-def backed_up(
-    index: int, slot: int, table: ValueTable, nodes: Any, nexts: Any, tables: Tables
-) -> float:
+def backed_up(index: int, slot: int, table: ValueTable, nodes: Any, nexts: Any, tables: Tables) -> float:
     """Return the expected value after an action of a node, over its outlook and the answers."""
     about, rate = marked(nodes, index, slot), tables.p_again if slot == 0 else tables.p_l
     total = 0.0
@@ -264,23 +239,6 @@ def normal_matrices(nodes: Any, lower: Vector) -> None:
 def slot_kind(nodes: Any, index: int, slot: int) -> int:
     """Return the kind of a node's action."""
     return int(nodes["kind"][index]) if slot == 0 else ASK_FIRST if slot == 1 else ASK_SECOND
-
-
-@lean
-def add_row(band: Vector, row: int, column: int, down: float, along: float) -> None:
-    """Add the outer product of the weights of a cell's four corners."""
-    for one in range(4):
-        here = (row + one // 2) * COLUMNS + column + one % 2
-        weight = corner(one, down, along)
-        for other in range(one + 1):
-            there = (row + other // 2) * COLUMNS + column + other % 2
-            band[here, there - here + WIDTH - 1] += weight * corner(other, down, along)
-
-
-@inlined
-def corner(number: int, down: float, along: float) -> float:
-    """Return the bilinear weight of one of a cell's corners."""
-    return (down if number // 2 else 1.0 - down) * (along if number % 2 else 1.0 - along)
 
 
 @compiled

@@ -197,7 +197,14 @@ def select_answer(desired: int, about: int, rate: float, speaks: float, means: f
 
 @inlined
 def live_step(
-    belief: Vector, smoothed: float, desired: int, asked: int, rate: float, work: Vector, state: RandomState, tables: Tables
+    belief: Vector,
+    smoothed: float,
+    desired: int,
+    asked: int,
+    rate: float,
+    work: Vector,
+    state: RandomState,
+    tables: Tables,
 ) -> None:
     """Replace a belief by that after a step of a person drawn from the model: words, pointing and an answer.
 

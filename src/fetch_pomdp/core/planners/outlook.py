@@ -68,7 +68,13 @@ def smoothed_mass(belief: Vector, tables: Tables) -> float:
 
 @lean
 def look(
-    index: int, belief: Vector, smoothed: float, heard: Vector, state: RandomState, distinct: DistinctWords, tables: Tables
+    index: int,
+    belief: Vector,
+    smoothed: float,
+    heard: Vector,
+    state: RandomState,
+    distinct: DistinctWords,
+    tables: Tables,
 ) -> float:
     """Fill in the belief number `index` of an outlook and return its chance. All numbers in turn sum to 1."""
     count = min(len(distinct.words), MOST_WORDS)

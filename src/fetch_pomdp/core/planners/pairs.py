@@ -36,7 +36,7 @@ def closeness(one: int, other: int, tables: Tables) -> float:
     word = mass * math.sqrt(tables.smoothing[one] * tables.smoothing[other])
     a, b = tables.directions[one], tables.directions[other]
     ray = math.exp((a[0] * b[0] + a[1] * b[1] + a[2] * b[2] - 1.0) / (4.0 * tables.sigma * tables.sigma))
-    return (1.0 - tables.p_l + tables.p_l * word) * (1.0 - tables.p_g + tables.p_g * ray)
+    return float((1.0 - tables.p_l + tables.p_l * word) * (1.0 - tables.p_g + tables.p_g * ray))
 
 
 @inlined

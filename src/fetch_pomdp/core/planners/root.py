@@ -40,7 +40,7 @@ def searched(
 
 
 def checked_asked(probabilities: Vector, asked: int | None, problem: Problem) -> int:
-    """Return i_r for compiled code, which checks no index. Raises PlannerError if a belief or i_r is of another table."""
+    """Return i_r for compiled code, which checks no index. Raises PlannerError for a belief or i_r of another table."""
     about = NOBODY if asked is None else asked
     if len(probabilities) != problem.n_items or not NOBODY <= about < problem.n_items:
         found = f"found a belief over {len(probabilities)} items and a question about item {asked}"
