@@ -23,11 +23,12 @@ from fetch_pomdp.core import generative
 from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick
 from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.discrete import Discrete, all_actions
 from fetch_pomdp.core.language import answer_rate
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.errors import ActionError, ModelError
+from fetch_pomdp.errors import ActionError, ModelError, ObservationError
 
 pomdp_py = load("pomdp_py", "pomdp-py")
 
@@ -116,22 +117,26 @@ class ObservationModel(pomdp_py.ObservationModel):  # type: ignore[misc,name-def
     def __init__(self, problem: Problem, rng: Generator) -> None:
         self._problem, self._rng = problem, rng
 
-    def probability(self, observation: FetchObservation, next_state: FetchState, action: FetchAction) -> float:
-        """Return p(o | i_d, i_r); after a pick only None is seen."""
-        if next_state.over or not isinstance(observation.seen, Observation):
-            return float(next_state.over and observation.seen is None)
+    def log_likelihood(self, observation: FetchObservation, asked: int | None, action: FetchAction) -> Vector:
+        """Return log p(o | i_d, i_r) for each item as the desired one, (n_items,). asked: i_r after the action."""
+        if not isinstance(observation.seen, Observation):
+            raise ObservationError(f"found {shown(observation.seen)}, expected a full observation", field="observation")
         rate = answer_rate(action.action, self._problem)
-        log = observations.log_likelihood(observation.seen, next_state.asked, self._problem, rate)
-        return math.exp(log[next_state.desired])
+        return observations.log_likelihood(observation.seen, asked, self._problem, rate)
+
+    def probability(self, observation: FetchObservation, next_state: FetchState, action: FetchAction) -> float:
+        """Return p(o | i_d, i_r); after a pick only None is seen. Raises ObservationError for the other kind."""
+        if next_state.over or observation.seen is None:
+            return float(next_state.over and observation.seen is None)
+        return math.exp(self.log_likelihood(observation, next_state.asked, action)[next_state.desired])
 
     def sample(self, next_state: FetchState, action: FetchAction) -> FetchObservation:
         """Draw what is perceived after an action."""
-        if next_state.over:
-            return FetchObservation(None)
+        return FetchObservation(None if next_state.over else self._drawn(next_state, action))
+
+    def _drawn(self, state: FetchState, action: FetchAction) -> Observation:
         rate = answer_rate(action.action, self._problem)
-        return FetchObservation(
-            observations.sample(next_state.desired, next_state.asked, self._problem, rate, self._rng)
-        )
+        return observations.sample(state.desired, state.asked, self._problem, rate, self._rng)
 
 
 class ClassModel(ObservationModel):
@@ -141,19 +146,18 @@ class ClassModel(ObservationModel):
         super().__init__(problem, rng)
         self._model = Discrete(problem)
 
-    def probability(self, observation: FetchObservation, next_state: FetchState, action: FetchAction) -> float:
-        """Return the chance of the classes."""
-        if next_state.over or not isinstance(observation.seen, tuple):
-            return float(next_state.over and observation.seen is None)
+    def log_likelihood(self, observation: FetchObservation, asked: int | None, action: FetchAction) -> Vector:
+        """Return the logarithms of the chances of the classes, (n_items,)."""
+        if not isinstance(observation.seen, tuple):
+            raise ObservationError(f"found {shown(observation.seen)}, expected three classes", field="observation")
         word, response, gesture = observation.seen
-        model, desired = self._model, next_state.desired
-        answers = model.responses(next_state.asked, action.action)
-        return float(model.words[desired, word] * answers[desired, response] * model.gestures[desired, gesture])
+        model, answers = self._model, self._model.responses(asked, action.action)
+        with np.errstate(divide="ignore"):  # what cannot be is -inf
+            return np.log(model.words[:, word] * answers[:, response] * model.gestures[:, gesture])
 
     def sample(self, next_state: FetchState, action: FetchAction) -> FetchObservation:
         """Draw the classes of what is perceived after an action."""
-        drawn = super().sample(next_state, action).seen
-        return FetchObservation(self._model.classify(drawn) if isinstance(drawn, Observation) else None)
+        return FetchObservation(None if next_state.over else self._model.classify(self._drawn(next_state, action)))
 
     def get_all_observations(self) -> list[FetchObservation]:
         """Return every observation, None for the end among them."""
@@ -161,23 +165,28 @@ class ClassModel(ObservationModel):
 
 
 class PolicyModel(pomdp_py.RolloutPolicy):  # type: ignore[misc,name-defined]
-    """All 2n + 1 actions, each as likely as another in a rollout."""
+    """All 2n + 1 actions; a rollout hands over the item that the history makes likeliest.
 
-    def __init__(self, problem: Problem, rng: Generator) -> None:
+    Choice: actions at random, the library's rollout, pick wrong items so often that POUCT takes every wait or question
+    for a loss, and picks at once. The history counts from a uniform belief, as an interaction begins.
+    """
+
+    def __init__(self, problem: Problem, perception: ObservationModel) -> None:
         self._actions = tuple(FetchAction(action) for action in all_actions(problem.n_items))
-        self._rng = rng
+        self._perception = perception
 
     def get_all_actions(self, state: FetchState | None = None, history: Any = None) -> tuple[FetchAction, ...]:  # noqa: ARG002
         """Return every action: wait, ask about each item, pick each item."""
         return self._actions
 
-    def rollout(self, state: FetchState, history: Any = None) -> FetchAction:  # noqa: ARG002
-        """Draw an action."""
-        return self._actions[int(self._rng.integers(len(self._actions)))]
-
-    def sample(self, state: FetchState) -> FetchAction:
-        """Draw an action."""
-        return self.rollout(state)
+    def rollout(self, state: FetchState, history: tuple[tuple[FetchAction, FetchObservation], ...] = ()) -> FetchAction:  # noqa: ARG002
+        """Return the pick of the likeliest item; after a pick any action does."""
+        asked, log = None, np.zeros(len(self._actions) // 2)
+        for action, observation in history or ():
+            asked = generative.asked_after(action.action, asked)
+            if observation.seen is not None:
+                log += self._perception.log_likelihood(observation, asked, action)
+        return self._actions[1 + len(log) + int(log.argmax())]
 
 
 def fetch_agent(problem: Problem, observations: Kind = "full", *, seed: int = 0) -> Agent:
@@ -191,12 +200,12 @@ def fetch_agent(problem: Problem, observations: Kind = "full", *, seed: int = 0)
         found = f"found {shown(observations)}, expected one of {', '.join(KINDS)}"
         raise ModelError(found, field="observations")
     rng = np.random.default_rng(seed)
-    perception = ClassModel if observations == "classes" else ObservationModel
+    perception = (ClassModel if observations == "classes" else ObservationModel)(problem, rng)
     return pomdp_py.Agent(
         histogram(Belief.uniform(problem.n_items)),
-        PolicyModel(problem, rng),
+        PolicyModel(problem, perception),
         TransitionModel(),
-        perception(problem, rng),
+        perception,
         RewardModel(problem),
     )
 
