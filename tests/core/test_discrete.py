@@ -15,7 +15,7 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.errors import ModelError, ObservationError
+from fetch_pomdp.errors import ModelError, ObservationError, SceneError
 from tests.oracles import rays
 from tests.tables import table
 
@@ -95,6 +95,11 @@ def test_what_is_classified() -> None:
 def test_a_number_of_rings_that_is_none(rings: Any) -> None:
     with pytest.raises(ModelError, match=r"rings: found .*, expected a whole number from 1 to 16"):
         Discrete(table(CUPS, p_g=0.0), rings)
+
+
+def test_too_many_items() -> None:
+    with pytest.raises(SceneError, match="items: found 201 items, expected at most 200"):
+        Discrete(table([["cup"]] * 201))
 
 
 def test_the_numbers_of_actions() -> None:

@@ -173,3 +173,13 @@ def test_what_cannot_be_written_leaves_nothing(tmp_path: Path, monkeypatch: pyte
     with pytest.raises(ExportError, match="cannot be written: No space left on device"):
         export(model, tmp_path / "scene.pomdp")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_system_without_links_will_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*_: object) -> None:
+        raise OSError(95, "Operation not supported")
+
+    monkeypatch.setattr(Path, "hardlink_to", refused)
+    path = written(tmp_path, p_g=0.0)
+    assert len(read_pomdp(path).states) == 13
+    assert list(tmp_path.iterdir()) == [path]

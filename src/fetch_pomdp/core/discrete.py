@@ -24,10 +24,11 @@ from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import turned
 from fetch_pomdp.core.words import POSITIVE
-from fetch_pomdp.errors import ModelError, ObservationError
+from fetch_pomdp.errors import ModelError, ObservationError, SceneError
 
 SILENT, YES, NO = 0, 1, 2  # classes of responses
 MOST_RINGS = 16
+MOST_ITEMS = 200  # the quadrature takes time quadratic in their number: 200 take some 5 s
 ROLLS, CELLS = 256, 512  # of the quadrature over rays: errors of chances are about p_g / 2000
 
 
@@ -39,24 +40,26 @@ def all_actions(n_items: int) -> tuple[Action, ...]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Discrete:
-    """A problem whose observations are classes. Raises ModelError for a number of rings that is none.
+    """A problem whose observations are classes. Raises ModelError for a number of rings that is none, SceneError for
+    over MOST_ITEMS items.
 
-    rings: each item's cone within the gesture threshold is split into that many rings of equal width.
+    rings: each item's cone within the gesture threshold is split into that many rings of equal width. Columns of
+    `gestures`: null, then 1 + item * rings + ring; null alone where p_g is 0.
     """
 
     problem: Problem
     rings: int = 1
     word_classes: tuple[tuple[str, ...], ...] = field(init=False)  # the first is (), silence
     words: Vector = field(init=False, repr=False)  # (n, len(word_classes)), chance of each given each desired item
-    gestures: Vector = field(
-        init=False, repr=False
-    )  # (n, 1 + n * rings): null, then item * rings + ring; (n, 1) if p_g is 0
+    gestures: Vector = field(init=False, repr=False)  # (n, 1 + n * rings), likewise
 
     def __post_init__(self) -> None:
         rings = self.rings
         if not isinstance(rings, int) or isinstance(rings, bool) or not 1 <= rings <= MOST_RINGS:
             found = f"found {shown(rings)}, expected a whole number from 1 to {MOST_RINGS}"
             raise ModelError(found, field="rings")
+        if self.problem.n_items > MOST_ITEMS:
+            raise SceneError(f"found {self.problem.n_items} items, expected at most {MOST_ITEMS}", field="items")
         classes = _word_classes(self.problem)
         object.__setattr__(self, "word_classes", ((), *classes.values()))
         object.__setattr__(self, "words", _word_chances(self.problem, classes))
