@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.files.formats import read_pomdp, read_pomdpx
 
 from fetch_pomdp.cli.main import main
+from tests.files.formats import read_pomdp, read_pomdpx
 
 
 def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
