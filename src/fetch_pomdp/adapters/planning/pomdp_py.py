@@ -122,7 +122,7 @@ class ObservationModel(pomdp_py.ObservationModel):  # type: ignore[misc,name-def
         if not isinstance(observation.seen, Observation):
             raise ObservationError(f"found {shown(observation.seen)}, expected a full observation", field="observation")
         rate = answer_rate(action.action, self._problem)
-        return observations.log_likelihood(observation.seen, asked, self._problem, rate)
+        return observations.log_likelihoods(observation.seen, asked, self._problem, rate).together()
 
     def probability(self, observation: FetchObservation, next_state: FetchState, action: FetchAction) -> float:
         """Return p(o | i_d, i_r); after a pick only None is seen. Raises ObservationError for the other kind."""
