@@ -54,6 +54,7 @@ def lattice_value(count: int, p_l: float, p_truth: float) -> float:
     return value[0, False]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("p_l", "p_truth"), [(0.95, 0.99), (0.6, 0.9), (0.8, 0.7)])
 def test_the_value_of_two_twins_is_that_of_plain_value_iteration(p_l: float, p_truth: float) -> None:
     problem = twins(2, p_l=p_l, p_truth=p_truth)
@@ -62,6 +63,7 @@ def test_the_value_of_two_twins_is_that_of_plain_value_iteration(p_l: float, p_t
     assert max(decision.value, decision.pick.max()) == pytest.approx(lattice_value(2, p_l, p_truth), abs=0.25)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("problem", [exact_rays(AMBIGUOUS), exact_rays(Problem(Scene.load("unambiguous")))])
 def test_the_value_is_that_of_its_own_rollouts(problem: Problem) -> None:
     """The fault of earlier tries: values that over-rate going on, and policies that run to the end."""
@@ -71,6 +73,7 @@ def test_the_value_is_that_of_its_own_rollouts(problem: Problem) -> None:
     assert played.mean_steps < 6
 
 
+@pytest.mark.slow
 def test_it_does_not_wait_for_ever_between_twins() -> None:
     """An answered question about a third item tells nothing of two twins that lead: waiting is worth no more for it."""
     belief = [0.0, 0.0, 0.0, 0.0, 0.62, 0.38]
@@ -80,6 +83,7 @@ def test_it_does_not_wait_for_ever_between_twins() -> None:
     assert decision.wait == pytest.approx(fresh.wait, abs=0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asked", [None, 0, 2, 4])
 def test_permuting_items_permutes_values(asked: int | None) -> None:
     """Without pointing nothing is sampled, so that values agree to the last digits."""
@@ -108,6 +112,7 @@ def test_permuting_twins_that_stand_together_permutes_values_exactly() -> None:
     assert second.wait == pytest.approx(first.wait, abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asked", [None, 1])
 @pytest.mark.parametrize("seed", range(3))
 def test_information_never_lowers_the_value(asked: int | None, seed: int) -> None:
@@ -126,6 +131,7 @@ def test_information_never_lowers_the_value(asked: int | None, seed: int) -> Non
     assert wait - problem.rewards.wait >= now - 0.15
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("problem", [AMBIGUOUS, exact_rays(AMBIGUOUS), twins(3), table([["cup"]])])
 def test_many_decisions_are_those_one_by_one(problem: Problem) -> None:
     count = problem.n_items

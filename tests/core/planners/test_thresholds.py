@@ -42,6 +42,7 @@ def test_tuning_finds_what_was_found_before() -> None:
     assert found.pick == pytest.approx(0.722, abs=0.06)
 
 
+@pytest.mark.slow
 def test_tuning_is_repeatable_and_may_pick_at_once() -> None:
     problem = twins(3, p_truth=0.5)  # answers tell nothing
     found = tuned(problem, 3)
