@@ -274,7 +274,12 @@ def test_the_default_planner_is_ours() -> None:
         ("always", {"confidence": 0}, "confidence: found 0, expected a probability above 0 and at most 1"),
         ("fitted", {"beliefs": 99}, "beliefs: found 99, expected a whole number from 100"),
         ("fitted", {"rays": 0}, "rays: found 0"),
-        ("fitted", {"depth": 2}, "depth: unknown parameter of planner 'fitted', expected one of beliefs, rays, seed"),
+        (
+            "fitted",
+            {"depth": 2},
+            "depth: unknown parameter of planner 'fitted', expected one of beliefs, rays, seed, passes, budget_ms",
+        ),
+        ("fitted", {"budget_ms": -1}, "budget_ms: found -1, expected a time from 0 to 1e6 ms, or none"),
         ("threshold", {"pick": -0.1}, "pick: found -0.1, expected a belief from 0, or a limit to 2"),
         ("always", {"confidence": math.nan}, "confidence: found nan"),
     ],

@@ -12,9 +12,10 @@ from numpy.random import default_rng
 from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.afterstate import ROWS
+from fetch_pomdp.core.planners.ahead import MOST_ASKED, candidates
 from fetch_pomdp.core.planners.batch import action_of, code_of, decide_many
 from fetch_pomdp.core.planners.exact import ExactAnswers
-from fetch_pomdp.core.planners.fitted import MOST_ASKED, MOST_FITTED, FittedValue, candidates, solution
+from fetch_pomdp.core.planners.fitted import MOST_FITTED, FittedValue, solution
 from fetch_pomdp.core.planners.sparse import SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold, tuned
 from fetch_pomdp.core.problem import Problem
@@ -167,7 +168,8 @@ def test_arrays_of_another_table_are_refused() -> None:
 def test_the_same_scene_is_solved_once_and_alike() -> None:
     planner = FittedValue(beliefs=500)
     one, other = Problem(AMBIGUOUS.scene), Problem(AMBIGUOUS.scene)
-    assert solution(one, planner) is solution(other, planner)
+    assert solution(one, planner).table is solution(other, planner).table
+    assert solution(one, FittedValue(beliefs=500, rays=2)).table is solution(one, planner).table
     again = FittedValue(beliefs=500, seed=1)
     assert not np.array_equal(solution(one, planner).table.values, solution(one, again).table.values)
 
@@ -236,3 +238,29 @@ def test_never_worse_than_thresholds_the_papers_search_or_picking_at_once(p_g: f
     for rival, episodes in ((tuned(problem, 5), 20_000), (SparseSampling(), 4_000), (Threshold(0.0), 1_000)):
         theirs = simulate(problem, rival, episodes, 3)
         assert ours.mean_return >= theirs.mean_return - 3 * math.hypot(ours.standard_error, theirs.standard_error)
+
+
+def test_more_passes_less_error_and_the_same_whatever_the_calls() -> None:
+    belief = Belief([0.02, 0.02, 0.55, 0.35, 0.03, 0.03])
+    few, many = (FittedValue(passes=n).decide(AMBIGUOUS, belief, 2, rng=default_rng(0)) for n in (4, 400))
+    assert 7 < few.wait_error / many.wait_error < 14  # ten times less
+    assert abs(few.wait - many.wait) < 4 * few.wait_error
+
+
+@pytest.mark.slow
+def test_a_budget_refines_where_actions_are_close_and_replays_without_a_clock() -> None:
+    close, planner = None, FittedValue(budget_ms=20.0)
+    for seed in range(60):
+        belief = Belief(default_rng(seed).dirichlet(np.full(6, 0.5)))
+        decision = planner.decide(AMBIGUOUS, belief, None, rng=default_rng(seed))
+        plain = FittedValue().decide(AMBIGUOUS, belief, None, rng=default_rng(seed))
+        again = planner.with_passes(decision.passes).decide(AMBIGUOUS, belief, None, rng=default_rng(seed))
+        assert again.action == decision.action
+        assert (again.wait, again.wait_error) == (decision.wait, decision.wait_error)
+        assert np.array_equal(again.point, decision.point, equal_nan=True)
+        if decision.passes == 1:
+            assert plain.wait == decision.wait
+        else:
+            close = decision
+            assert decision.wait_error < plain.wait_error
+    assert close is not None

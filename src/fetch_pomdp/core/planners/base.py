@@ -33,6 +33,7 @@ class Decision:
     wait_error: float = 0.0
     point_error: Vector | None = None  # (n_items,)
     explanation: Explanation | None = None  # filled in by Agent.decide
+    passes: int = 1  # of sampling, of a planner with a budget
 
     @property
     def value(self) -> float:
