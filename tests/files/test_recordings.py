@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,9 +19,11 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.model import Model, Rewards
-from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.observation import Observation, sample
+from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.planners.fixed import NeverAsk
 from fetch_pomdp.core.planners.sparse import SparseSampling
 from fetch_pomdp.core.ports import Outcome, Word
@@ -55,7 +58,7 @@ words = st.lists(
 )
 events: st.SearchStrategy[Event] = st.builds(
     Observed, st.builds(Observation, texts, rays), words.map(tuple), times
-) | st.builds(Acted, actions, st.sampled_from(Outcome), st.none(), times)
+) | st.builds(Acted, actions, st.sampled_from(Outcome), st.none(), times, st.none() | st.integers(1, 99))
 
 
 @given(event=events)
@@ -158,6 +161,42 @@ def test_a_replay_is_the_life_of_the_agent(tmp_path: Path) -> None:
     assert agent.decide().action == live.decide().action
     assert agent.decide().wait == live.decide().wait
     assert not recording.over
+
+
+@pytest.mark.slow
+def test_decisions_under_a_budget_are_repeated_from_their_log(tmp_path: Path) -> None:
+    """The clock decided how many passes there were; the log says how many, and they give the same values."""
+    refined = 0
+    for seed in range(8):
+        path = tmp_path / f"log-{seed}.jsonl"
+        decided = logged(path, Agent("ambiguous", FittedValue(budget_ms=30.0), seed=seed))
+        refined += sum((decision.passes or 0) > 1 for decision in decided)
+        recording = read_recording(path)
+        agent = recording.header.agent()
+        earlier = iter(decided)
+        for event in recording.events:
+            if isinstance(event, Acted):
+                again, then = agent.decide(passes=event.passes), next(earlier)
+                assert (again.action, again.wait) == (then.action, then.wait)
+            agent.take(event)
+    assert refined
+
+
+def logged(path: Path, agent: Agent) -> list[Decision]:
+    """Let an agent do as it decides with a person who wants the fourth item, log it, and return its decisions."""
+    header = Header(scene=agent.scene, scene_name="ambiguous", parameters={"budget_ms": 30.0}, seed=agent.seed)
+    decided: list[Decision] = []
+    rng = np.random.default_rng(agent.seed)
+    with EventLog.create(path, header) as log:
+        for _ in range(8):
+            decision = agent.decide()
+            decided.append(decision)
+            action = Wait() if isinstance(decision.action, Pick) else decision.action
+            for event in (Acted(action, passes=decision.passes), None):
+                happened = event or Observed(sample(3, agent.asked, agent.problem, 0.9, rng))
+                agent.take(happened)
+                log.write(happened)
+    return decided
 
 
 def test_an_impossible_event_is_named_by_its_line(tmp_path: Path) -> None:
@@ -278,6 +317,7 @@ def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: 
             "outcome: found 'lost', expected one of done, failed, stopped",
         ),
         ({"action": "pick", "item": "bowl-1", "outcome": None}, "outcome: found None"),
+        ({"action": "wait", "passes": 0}, "passes: found 0, expected a whole number from 1"),
         ({"action": "wait", "t": "now"}, "t: found 'now', expected a time in seconds"),
         ({"action": "wait", "t": float("nan")}, "t: found nan"),
         ({"action": "wait", "utterance": "x"}, "utterance: unknown field"),

@@ -17,7 +17,7 @@ from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
 from fetch_pomdp.cli.explain import decision_to_json
-from fetch_pomdp.cli.options import Depth, Json, PlannerName, SceneName, Seed, Width, warm_up
+from fetch_pomdp.cli.options import Budget, Depth, Json, PlannerName, SceneName, Seed, Width, warm_up
 from fetch_pomdp.cli.show import belief_to_json, show_event
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
@@ -54,6 +54,7 @@ def fetch(
     planner: PlannerName = None,
     depth: Depth = None,
     width: Width = None,
+    budget: Budget = None,
     seed: Seed = None,
     log: Log = None,
     json_lines: Json = False,
@@ -64,7 +65,9 @@ def fetch(
     would say, with @item for an item that you point at.
     """
     table = Scene.load(scene)
-    parameters = {name: value for name, value in (("depth", depth), ("width", width)) if value is not None}
+    parameters = {
+        name: value for name, value in (("depth", depth), ("width", width), ("budget_ms", budget)) if value is not None
+    }
     named = scene if scene in LAYOUTS else None
     header = Header(scene=table, scene_name=named, planner=planner or DEFAULT, parameters=parameters, seed=seed or 0)
     agent = header.agent()

@@ -12,7 +12,18 @@ from rich.console import Console
 from rich.table import Table
 
 from fetch_pomdp.cli.explain import decision_to_json, show_decision
-from fetch_pomdp.cli.options import Depth, Json, PlannerName, SceneName, Seed, Width, as_json, built_planner, warm_up
+from fetch_pomdp.cli.options import (
+    Budget,
+    Depth,
+    Json,
+    PlannerName,
+    SceneName,
+    Seed,
+    Width,
+    as_json,
+    built_planner,
+    warm_up,
+)
 from fetch_pomdp.cli.show import belief_to_json, show_event
 from fetch_pomdp.core.events import Observed
 from fetch_pomdp.core.problem import Problem
@@ -45,6 +56,7 @@ def decide(
     planner: PlannerName = None,
     depth: Depth = None,
     width: Width = None,
+    budget: Budget = None,
     seed: Seed = None,
     explain: Annotated[bool, typer.Option("--explain", help="On a terminal: the numbers behind it too.")] = False,
     json_lines: Json = False,
@@ -59,7 +71,7 @@ def decide(
         raise EventError(
             "found a pick that was done, expected an interaction that is still going on", source=str(events)
         )
-    agent = recording.header.agent(planner=planner, seed=seed, depth=depth, width=width)
+    agent = recording.header.agent(planner=planner, seed=seed, depth=depth, width=width, budget_ms=budget)
     for _ in recording.replay(agent):
         pass
     warm_up(agent.planner, agent.problem)

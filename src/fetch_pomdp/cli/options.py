@@ -20,6 +20,10 @@ SceneName = Annotated[
 PlannerName = Annotated[str | None, typer.Option(help=f"One of {', '.join(PLANNERS)}.  [default: {DEFAULT}]")]
 Depth = Annotated[int | None, typer.Option(help="Actions the planner looks ahead, for planners that search.")]
 Width = Annotated[int | None, typer.Option(help="Observations sampled at each node, for planners that search.")]
+Budget = Annotated[
+    float | None,
+    typer.Option("--budget", metavar="MS", help="Milliseconds a decision may take, for planners that refine."),
+]
 Seed = Annotated[int | None, typer.Option(min=0, help="The same seed gives the same result.  [default: 0]")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 

@@ -24,7 +24,7 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import Utterance
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.base import Decision, Planner, whole_number
+from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner, whole_number
 from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
@@ -103,10 +103,16 @@ class Agent:
         self._steps += 1
         return utterance
 
-    def decide(self) -> Decision:
-        """Return what the planner would do now, the value of every action, and why; nothing changes."""
+    def decide(self, *, passes: int | None = None) -> Decision:
+        """Return what the planner would do now, the value of every action, and why; nothing changes.
+
+        passes: as many passes of sampling as a decision that was recorded took, in place of a planner's budget.
+        """
         rng = np.random.default_rng((self.seed, self._steps))
-        decision = self.planner.decide(self.problem, self._belief, self.asked, rng=rng)
+        planner = self.planner
+        if passes is not None and isinstance(planner, BudgetPlanner):
+            planner = planner.with_passes(passes)
+        decision = planner.decide(self.problem, self._belief, self.asked, rng=rng)
         return dataclasses.replace(decision, explanation=explain(decision, self._belief, self._evidence))
 
     def act(self) -> Action:

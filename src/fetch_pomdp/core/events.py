@@ -22,12 +22,16 @@ class Observed:
 
 @dataclass(frozen=True, slots=True)
 class Acted:
-    """The robot's action ended at `time` (s); decision: why it was chosen, where that is known."""
+    """The robot's action ended at `time` (s); decision: why it was chosen, where that is known.
+
+    passes: of sampling, if the decision had a budget (`Agent.decide` repeats it from them); None without one.
+    """
 
     action: Action
     outcome: Outcome = Outcome.DONE
     decision: Decision | None = None
     time: float | None = None
+    passes: int | None = None
 
     @property
     def done(self) -> bool:

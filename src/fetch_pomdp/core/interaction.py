@@ -97,7 +97,7 @@ def interact(
         if isinstance(decision.action, Point) and (early := senses.answers(now)):
             agent.take(early)
             yield early
-        acted = Acted(decision.action, outcome, decision, now)
+        acted = Acted(decision.action, outcome, decision, now, decision.passes)
         agent.take(acted)
         yield acted
         if isinstance(acted.action, Pick):

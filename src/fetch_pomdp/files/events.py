@@ -36,7 +36,7 @@ def event_from_json(data: Mapping[str, Any], scene: Scene) -> Event:
 
 
 def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
-    checks.known(data, ("action", "item", "outcome", "t"), "field", EventError)
+    checks.known(data, ("action", "item", "outcome", "t", "passes"), "field", EventError)
     name = data["action"]
     if name not in ACTIONS:
         raise ActionError(f"found {shown(name)}, expected one of {', '.join(ACTIONS)}", field="action")
@@ -45,12 +45,15 @@ def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
     outcome = data.get("outcome", "done")
     if outcome not in OUTCOMES:
         raise EventError(f"found {shown(outcome)}, expected one of {', '.join(OUTCOMES)}", field="outcome")
+    passes = data.get("passes")
+    if passes is not None and (not isinstance(passes, int) or isinstance(passes, bool) or passes < 1):
+        raise EventError(f"found {shown(passes)}, expected a whole number from 1", field="passes")
     action: Action = Wait()
     if name != "wait":
         checks.required(data, ("item",), EventError)
         item = item_index(data["item"], scene, "item")
         action = Point(item) if name == "point" else Pick(item)
-    return Acted(action, Outcome(outcome), time=_time(data.get("t"), "t"))
+    return Acted(action, Outcome(outcome), time=_time(data.get("t"), "t"), passes=passes)
 
 
 def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
@@ -110,7 +113,9 @@ def event_to_json(event: Event, scene: Scene) -> dict[str, Any]:
 
 def _acted_to_json(event: Acted, scene: Scene) -> dict[str, Any]:
     fields = action_to_json(event.action, scene)
-    return fields if event.done else {**fields, "outcome": event.outcome.value}
+    if not event.done:
+        fields["outcome"] = event.outcome.value
+    return fields if event.passes is None else {**fields, "passes": event.passes}
 
 
 def action_to_json(action: Action, scene: Scene) -> dict[str, Any]:

@@ -254,6 +254,8 @@ def test_a_budget_refines_where_actions_are_close_and_replays_without_a_clock() 
         belief = Belief(default_rng(seed).dirichlet(np.full(6, 0.5)))
         decision = planner.decide(AMBIGUOUS, belief, None, rng=default_rng(seed))
         plain = FittedValue().decide(AMBIGUOUS, belief, None, rng=default_rng(seed))
+        assert plain.passes is None
+        assert decision.passes is not None
         again = planner.with_passes(decision.passes).decide(AMBIGUOUS, belief, None, rng=default_rng(seed))
         assert again.action == decision.action
         assert (again.wait, again.wait_error) == (decision.wait, decision.wait_error)

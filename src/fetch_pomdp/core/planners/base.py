@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.random import Generator
@@ -33,7 +33,7 @@ class Decision:
     wait_error: float = 0.0
     point_error: Vector | None = None  # (n_items,)
     explanation: Explanation | None = None  # filled in by Agent.decide
-    passes: int = 1  # of sampling, of a planner with a budget
+    passes: int | None = None  # of sampling, if their number depended on the clock
 
     @property
     def value(self) -> float:
@@ -48,6 +48,15 @@ class Planner(Protocol):
 
     def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
         """Choose an action for a belief and i_r, the index of the last item asked about, or None."""
+        ...
+
+
+@runtime_checkable
+class BudgetPlanner(Planner, Protocol):
+    """A planner whose decisions may depend on the clock, and on a number of passes instead."""
+
+    def with_passes(self, passes: int) -> Planner:
+        """Return a planner that makes so many passes whatever the time."""
         ...
 
 

@@ -100,7 +100,8 @@ class FittedValue:
             ends = started + CAUTION * self.budget_ms / 1e3
             found, passes = self._refined(problem, probabilities, about, seed, ends)
         wait, point, wait_error, errors, action = found
-        return Decision(action_of(action, problem), wait, point, pick, wait_error, errors, passes=passes)
+        timed = None if self.budget_ms is None else passes
+        return Decision(action_of(action, problem), wait, point, pick, wait_error, errors, passes=timed)
 
     def _refined(
         self, problem: Problem, probabilities: Vector, about: int, seed: int, ends: float
