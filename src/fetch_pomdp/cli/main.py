@@ -7,6 +7,7 @@ import sys
 
 import typer
 
+from fetch_pomdp.cli.gap import gap
 from fetch_pomdp.cli.interact import fetch
 from fetch_pomdp.cli.offline import decide, filter_events, simulate
 from fetch_pomdp.errors import FetchPomdpError
@@ -23,6 +24,7 @@ app.command()(fetch)
 app.command("filter")(filter_events)
 app.command()(decide)
 app.command()(simulate)
+app.command()(gap)
 
 
 def main() -> None:

@@ -18,8 +18,8 @@ Estimates. E[V^(b')] sums words and answers, and samples pointing apart from the
 unbiased, so each policy's mean stays as it was, and its noise can only raise the maximum's mean.
 
 Closing. Let C be a supersolution (`bounding.oracle`). At a node the control may be changed from V^ to C for all that
-follows, which adds C(b) - V^(b) to S, the sum of deltas so far: the argument holds for every control that depends on the
-history of the node alone. Under C no delta is above 0, so nothing is won by going on, and the node is closed at
+follows, which adds C(b) - V^(b) to S, the sum of deltas so far: the argument holds for every control that depends on
+the history of the node alone. Under C no delta is above 0, so nothing is won by going on, and the node is closed at
 
     S + C(b) - V^(b).
 
@@ -32,10 +32,10 @@ reaches with more. tau is chosen on pilot scenarios, drawn from other streams th
 Equals. Where two items have the same words, direction and belief, and neither is i_r, exchanging them changes nothing,
 so a best policy need not ask about the second, and the bound is taken over policies that do not.
 
-Choice: the bound judges rays by the exact likelihood whatever the model says. A policy earns its reward among the people
-of the sampler. Under "eq7" the robot's belief is not their posterior, and a bound computed with it would not hold; under
-"exact" it is, so the bound holds for every policy on those people, whatever its own filter. (Up to rays within 0.001 rad
-of an item, whose density is cut off, and a quadrature: too little to see in any digit.)
+Choice: the bound judges rays by the exact likelihood whatever the model says. A policy earns its reward among the
+people of the sampler. Under "eq7" the robot's belief is not their posterior, and a bound computed with it would not
+hold; under "exact" it is, so the bound holds for every policy on those people, whatever its own filter. (Up to rays
+within 0.001 rad of an item, whose density is cut off, and a quadrature: too little to see in any digit.)
 
 The bound is on returns without a limit of steps, and so holds where an episode must end in a pick.
 """
@@ -65,7 +65,7 @@ Kind = Literal["relaxation", "oracle"]
 MOST_ITEMS = 60  # beyond which a clairvoyant's questions are too many to try
 MOST_SCENARIOS = 10_000_000
 RAYS = 64  # of an outlook
-TAUS = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # points, tried in turn
+TAUS = (-0.5, -0.2, 0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # points, tried in turn
 PILOTS = 48
 MOST_WORK = 400_000  # beliefs looked at for a scenario, on average
 
@@ -142,9 +142,7 @@ def _relaxation(problem: Problem, table: ValueTable, tau: float, most_nodes: int
     return Relaxation(table, oracle_of(problem), distinct_words(problem, RAYS), _alike(problem), tau, most_nodes)
 
 
-def _searched(
-    problem: Problem, fixed: Relaxation, scenarios: int, streams: tuple[int, int]
-) -> tuple[Vector, Integers]:
+def _searched(problem: Problem, fixed: Relaxation, scenarios: int, streams: tuple[int, int]) -> tuple[Vector, Integers]:
     """Return V^(b0) plus the largest sums, and the nodes expanded, each (scenarios,); a stream for each scenario."""
     seeds = np.random.default_rng(streams).integers(2**53, size=scenarios, dtype=np.uint64)
     results, nodes = np.empty(scenarios), np.empty(scenarios, dtype=np.int64)

@@ -27,8 +27,8 @@ U is found on a grid by value iteration down from the constant pick_correct, wit
 T keeps convexity: E[U(x')] is a sum of perspectives of a convex function. A convex function lies below its linear
 interpolation, which is again convex. So U1 = interpolation of T U0 is convex, and U1 <= U0 since U0 is the largest
 value there is; both operators are monotone, so U(n+1) <= Un for all n, hence Un >= U(n+1) >= T Un: every iterate is a
-convex supersolution, whenever one stops. By the same induction U with i_r in the pair is no less than U without, so that
-turning to another pair, which loses i_r, is no better than a wait.
+convex supersolution, whenever one stops. By the same induction U with i_r in the pair is no less than U without, so
+that turning to another pair, which loses i_r, is no better than a wait.
 """
 
 from __future__ import annotations
@@ -138,7 +138,7 @@ def solve_pair(chances: Vector, tables: Tables) -> Vector:
             question = tables.point + heard_value(x, 1, tables.p_l, chances, values, tables)
             for held in range(2):
                 wait = tables.wait + heard_value(x, held, held * tables.p_again, chances, values, tables)
-                after[held, point] = max(pick, max(question, wait))
+                after[held, point] = max(pick, question, wait)
                 change = max(change, values[held, point] - after[held, point])
         values[:] = after
         if change < SETTLED:
@@ -188,7 +188,7 @@ def ceiling(belief: Vector, asked: int, oracle: Oracle, tables: Tables) -> float
             told += belief[one] * tables.pick_correct
             continue
         largest = max(largest, belief[other])
-        held = 1 if asked == one or asked == other else 0
+        held = 1 if asked in (one, other) else 0
         told += massed(belief[one], belief[other], oracle.values[oracle.solved[pair], held])
     pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest
     return float(min(told, max(pick, tables.wait + tables.pick_correct)))
