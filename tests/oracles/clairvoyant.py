@@ -56,7 +56,9 @@ class Foresight:
     speaks: Sequence[float]
     means: Sequence[float]
 
-    def following(self, belief: Sequence[float], step: int, about: int | None, rate: float, world: World) -> list[float]:
+    def following(
+        self, belief: Sequence[float], step: int, about: int | None, rate: float, world: World
+    ) -> list[float]:
         joint = [p * likelihood for p, likelihood in zip(belief, self.evidence[step], strict=True)]
         if about is not None and self.speaks[step] < rate:
             positive = (self.means[step] < world.p_truth) == (about == self.desired)
@@ -86,7 +88,10 @@ class Clairvoyant:
         if step == self.last:
             return max(found, total + most - here)
         again = world.p_l * world.again
-        for about, rate, reward in [(asked, again, world.wait), *((k, world.p_l, world.ask) for k in range(world.count))]:
+        for about, rate, reward in [
+            (asked, again, world.wait),
+            *((k, world.p_l, world.ask) for k in range(world.count)),
+        ]:
             ahead = sum(chance * self.control(b, about) for chance, b in after(belief, about, rate, world))
             then = seen.following(belief, step, about, rate, world)
             found = max(found, self.best(seen, then, about, step + 1, total + reward + ahead - here))

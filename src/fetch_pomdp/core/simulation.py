@@ -79,9 +79,7 @@ def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Su
     for begin in range(0, episodes, side):
         numbers = np.arange(begin, min(begin + side, episodes))
         streams = people.integers(2**63, size=len(numbers), dtype=np.uint64)
-        played = _played(
-            problem, planner, Interactions.begin(numbers % problem.n_items, streams, problem.n_items), robot
-        )
+        played = _played(problem, planner, Interactions.begin(numbers % problem.n_items, streams, problem.n_items), robot)
         totals += [
             played.earned.sum(),
             (played.earned**2).sum(),
