@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pytest
@@ -97,9 +98,7 @@ def test_with_a_wrong_control_it_is_still_a_bound(value: float, tau: float) -> N
         ([["cup"], ["cup"], ["mug", "red"]], {"p_truth": 0.9, "p_l": 0.6}),
     ],
 )
-def test_the_clairvoyant_finds_the_best_of_all_sequences(
-    vocabularies: list[list[str]], model: dict[str, float]
-) -> None:
+def test_the_clairvoyant_finds_the_best_of_all_sequences(vocabularies: list[list[str]], model: dict[str, Any]) -> None:
     problem = table(vocabularies, p_g=0.0, **model)
     world, oracle, count = world_of(problem), oracle_of(problem), problem.n_items
     tau = 1.0
@@ -118,7 +117,7 @@ def test_the_clairvoyant_finds_the_best_of_all_sequences(
         drawn = drawn_scenario(seed, problem.tables)
         seen = Foresight(drawn.desired, drawn.evidence.tolist(), drawn.speaks.tolist(), drawn.means.tolist())
         expected.append(control([1 / count] * count, None) + plain.best(seen, [1 / count] * count, None))
-    found = clairvoyant_returns(problem, constant(1.5 - 0.0), 25, 7, tau=tau)
+    found = clairvoyant_returns(problem, constant(1.5), 25, 7, tau=tau)
     assert found == pytest.approx(expected, abs=1e-9)
     assert found.std() > 0.0
 
@@ -142,7 +141,7 @@ def random_problem(rng: np.random.Generator) -> Problem:
 @pytest.mark.parametrize("number", range(20))
 def test_no_planner_earns_more(number: int) -> None:
     problem = random_problem(np.random.default_rng((20, number)))
-    bound = upper_bound(problem, 400, number)
+    bound = upper_bound(problem, 200, number)
     assert bound.mean <= closed_form_bound(problem)
     planners: list[Planner] = [FittedValue(), SparseSampling(), ExactAnswers()]
     for planner in planners:
@@ -150,7 +149,7 @@ def test_no_planner_earns_more(number: int) -> None:
         error = math.hypot(bound.standard_error, played.standard_error)
         assert bound.mean > played.mean_return - 3 * error, planner
     best = simulate(problem, FittedValue(), 20_000, number)
-    assert bound.mean < best.mean_return + 1.0, "no use if far away"
+    assert bound.mean < best.mean_return + 2.0, "no use if far away"
 
 
 @pytest.mark.slow

@@ -96,3 +96,11 @@ class Clairvoyant:
             then = seen.following(belief, step, about, rate, world)
             found = max(found, self.best(seen, then, about, step + 1, total + reward + ahead - here))
         return found
+
+    def repeated(self, item: int, belief: Sequence[float], asked: int | None) -> bool:
+        """Whether an earlier twin, of the same belief and as little asked about, is as good to ask about."""
+        words = self.world.vocabularies
+        return item != asked and any(
+            words[other] == words[item] and other != asked and abs(belief[other] - belief[item]) < 1e-11
+            for other in range(item)
+        )

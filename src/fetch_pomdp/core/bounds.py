@@ -67,7 +67,7 @@ MOST_SCENARIOS = 10_000_000
 RAYS = 64  # of an outlook
 TAUS = (-0.5, -0.2, 0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # points, tried in turn
 PILOTS = 48
-MOST_WORK = 400_000  # beliefs looked at for a scenario, on average
+MOST_WORK = 150_000  # beliefs looked at for a scenario, on average
 
 _PILOT_STREAM, _STREAM = 3, 2  # of the seed; people of `simulate` have another
 

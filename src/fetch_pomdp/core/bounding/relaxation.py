@@ -29,6 +29,8 @@ from fetch_pomdp.core.planners.pairs import pair_class
 from fetch_pomdp.core.problem import Tables
 
 LAST = 30  # step at which every node is closed
+TIE = 1e-9  # points by which C may seem above a pick it equals
+EQUAL = 1e-12  # difference of beliefs that only rounding makes
 
 
 class Relaxation(NamedTuple):
@@ -138,9 +140,9 @@ def opened(
         sofar = sums[node] - control(belief, asked[node], fixed.table, tables)
         most = ceiling(belief, asked[node], fixed.oracle, tables)
         best = max(best, sofar + pick)
-        if most <= pick or sofar + most <= fixed.tau:
+        if sofar + most <= fixed.tau:
             continue
-        if last:
+        if last or most <= pick + TIE:
             best = max(best, sofar + most)
             continue
         nodes[count] = node
@@ -208,7 +210,7 @@ def repeated(item: int, belief: Vector, asked: int, alike: Integers) -> bool:
     if item == asked or alike[item] == item:
         return False
     for other in range(alike[item], item):
-        if alike[other] == alike[item] and other != asked and belief[other] == belief[item]:
+        if alike[other] == alike[item] and other != asked and abs(belief[other] - belief[item]) <= EQUAL:
             return True
     return False
 
