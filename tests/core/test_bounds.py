@@ -101,7 +101,7 @@ def test_with_a_wrong_control_it_is_still_a_bound(value: float, tau: float) -> N
 def test_the_clairvoyant_finds_the_best_of_all_sequences(vocabularies: list[list[str]], model: dict[str, Any]) -> None:
     problem = table(vocabularies, p_g=0.0, **model)
     world, oracle, count = world_of(problem), oracle_of(problem), problem.n_items
-    tau = 1.0
+    tau = 0.2
 
     def control(belief: Sequence[float], asked: int | None) -> float:
         del asked

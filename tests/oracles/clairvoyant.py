@@ -83,15 +83,12 @@ class Clairvoyant:
         world, here = self.world, self.control(belief, asked)
         pick, most = max(picks(belief, world)), self.ceiling(belief, asked)
         found = max(self.tau, total + pick - here)
-        if most <= pick or total + most - here <= self.tau:
+        if total + most - here <= self.tau:
             return found
-        if step == self.last:
+        if step == self.last or most <= pick + 1e-9:
             return max(found, total + most - here)
-        again = world.p_l * world.again
-        for about, rate, reward in [
-            (asked, again, world.wait),
-            *((k, world.p_l, world.ask) for k in range(world.count)),
-        ]:
+        asks = [(item, world.p_l, world.ask) for item in range(world.count) if not self.repeated(item, belief, asked)]
+        for about, rate, reward in [(asked, world.p_l * world.again, world.wait), *asks]:
             ahead = sum(chance * self.control(b, about) for chance, b in after(belief, about, rate, world))
             then = seen.following(belief, step, about, rate, world)
             found = max(found, self.best(seen, then, about, step + 1, total + reward + ahead - here))

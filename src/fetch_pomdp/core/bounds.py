@@ -66,7 +66,7 @@ MOST_ITEMS = 60  # beyond which a clairvoyant's questions are too many to try
 MOST_SCENARIOS = 10_000_000
 RAYS = 64  # of an outlook
 TAUS = (-0.5, -0.2, 0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # points, tried in turn
-PILOTS = 48
+PILOTS, PATIENCE = 32, 5  # scenarios; how many times the nodes wanted are expanded before one is left
 MOST_WORK = 150_000  # beliefs looked at for a scenario, on average
 
 _PILOT_STREAM, _STREAM = 3, 2  # of the seed; people of `simulate` have another
@@ -132,7 +132,7 @@ def chosen_tau(problem: Problem, table: ValueTable, seed: int) -> float:
     work = (len(distinct.words) + RAYS) * (problem.n_items + 1)
     most = max(MOST_WORK // work, 1)
     for tau in TAUS:
-        nodes = _searched(problem, _relaxation(problem, table, tau, 20 * most), PILOTS, (seed, _PILOT_STREAM))[1]
+        nodes = _searched(problem, _relaxation(problem, table, tau, PATIENCE * most), PILOTS, (seed, _PILOT_STREAM))[1]
         if nodes.mean() <= most:
             return tau
     return TAUS[-1]
