@@ -3,6 +3,7 @@
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.bounds import Bound, upper_bound
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.evidence import Evidence
 from fetch_pomdp.core.explain import explain
@@ -31,6 +32,7 @@ __all__ = [
     "Agent",
     "AlwaysAsk",
     "Belief",
+    "Bound",
     "Decision",
     "Event",
     "Evidence",
@@ -70,4 +72,5 @@ __all__ = [
     "simulate",
     "step",
     "tuned",
+    "upper_bound",
 ]

@@ -8,6 +8,7 @@ import sys
 import typer
 
 from fetch_pomdp.cli.doors import export_scene
+from fetch_pomdp.cli.gap import gap
 from fetch_pomdp.cli.interact import fetch
 from fetch_pomdp.cli.offline import decide, filter_events, simulate
 from fetch_pomdp.errors import FetchPomdpError
@@ -25,6 +26,7 @@ app.command("filter")(filter_events)
 app.command()(decide)
 app.command()(simulate)
 app.command("export")(export_scene)
+app.command()(gap)
 
 
 def main() -> None:

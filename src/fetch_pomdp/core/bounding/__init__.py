@@ -1,0 +1,1 @@
+"""Upper bounds on the optimal return: what no policy can beat."""

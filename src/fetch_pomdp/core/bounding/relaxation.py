@@ -1,0 +1,250 @@
+"""The best a clairvoyant does on one scenario, penalised for what they foresee; compiled.
+
+A scenario fixes the desired item, the base words and pointing of every step, and the noise of every step's answer. The
+search goes step by step. A layer holds the nodes that action sequences lead to: a belief, i_r and the sum S of the
+deltas on the way. Sequences that lead to the same answers lead to the same node, and the larger S counts: what follows
+is the same for both. Why nodes may be closed, and how, is told in `core.bounds`.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from fetch_pomdp.core.bounding.oracle import Oracle, ceiling
+from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, inlined, lean, uniform
+from fetch_pomdp.core.planners.afterstate import (
+    ValueTable,
+    answered_value,
+    classes_of,
+    kind_of,
+    node_value,
+    with_other,
+)
+from fetch_pomdp.core.planners.kernels import NO, NOBODY, YES, answered, hear, largest, normalise, select_answer
+from fetch_pomdp.core.planners.leaf import leading
+from fetch_pomdp.core.planners.outlook import DistinctWords, look, outlook_size, smoothed_mass
+from fetch_pomdp.core.planners.pairs import pair_class
+from fetch_pomdp.core.problem import Tables
+
+LAST = 30  # step at which every node is closed
+TIE = 1e-9  # points by which C may seem above a pick it equals
+EQUAL = 1e-12  # difference of beliefs that only rounding makes
+
+
+class Relaxation(NamedTuple):
+    """What is fixed before any scenario is drawn."""
+
+    table: ValueTable  # the control V^
+    oracle: Oracle  # the supersolution C
+    distinct: DistinctWords  # of the outlooks that estimate E V^
+    alike: Integers  # (n,), the first item with the same words and direction
+    tau: float  # a node that can end at no more is closed
+    most_nodes: int  # beyond which a pilot scenario is left, or 0 for none
+
+
+class Scenario(NamedTuple):
+    """All that is fixed for the clairvoyant, step by step."""
+
+    desired: int
+    evidence: Vector  # (LAST, n), likelihood of a step's words and pointing, up to a factor
+    speaks: Vector  # (LAST,), uniform: selects whether an answer comes
+    means: Vector  # (LAST,), uniform: selects whether it is true
+    seeds: RandomState  # (LAST,), of the outlooks of a step's nodes, which share them
+
+
+class Children(NamedTuple):
+    """Nodes of the next layer, each with the node and the action that led to it."""
+
+    parents: Integers
+    asked: Integers
+    answers: Integers
+    keys: RandomState  # a number for the answers so far and i_r
+    sums: Vector  # S
+
+
+@compiled
+def drawn_scenario(seed: int, tables: Tables) -> Scenario:
+    """Draw a scenario: the desired item from the uniform belief, the rest from the model."""
+    count = len(tables.smoothing)
+    state = np.empty(1, dtype=np.uint64)
+    state[0] = seed
+    flat, evidence = np.full(count, 1.0 / count), np.empty((LAST, count))
+    speaks, means, seeds = np.empty(LAST), np.empty(LAST), np.empty(LAST, dtype=np.uint64)
+    smoothed = smoothed_mass(flat, tables)
+    desired = int(uniform(state) * count)
+    for step in range(LAST):
+        hear(flat, smoothed, desired, evidence[step], state, tables)  # from a flat belief: the likelihood
+        speaks[step], means[step] = uniform(state), uniform(state)
+        seeds[step] = np.uint64(uniform(state) * 2.0**53)
+    return Scenario(desired, evidence, speaks, means, seeds)
+
+
+@lean
+def control(belief: Vector, asked: int, table: ValueTable, tables: Tables) -> float:
+    """Return V^(b, i_r)."""
+    top = leading(belief)
+    share = belief[asked] / top.b2 if asked != NOBODY and top.b2 > 0.0 else 0.0
+    cls = pair_class(top.first, top.second, table.breaks, tables)
+    return float(node_value(table.values, cls, top.b1, top.b2, kind_of(asked, top.first, top.second), share, tables))
+
+
+@compiled
+def relaxed(seeds: RandomState, fixed: Relaxation, results: Vector, nodes: Integers, tables: Tables) -> None:
+    """Fill in, for the scenario of each seed, the clairvoyant's largest sum of deltas and how many nodes that took."""
+    for index in range(len(seeds)):
+        scenario = drawn_scenario(seeds[index], tables)
+        results[index], nodes[index] = foreseen(scenario, fixed, tables)
+
+
+@compiled
+def foreseen(scenario: Scenario, fixed: Relaxation, tables: Tables) -> tuple[float, int]:
+    """Return the largest sum of deltas over all sequences of actions, and how many nodes were expanded.
+
+    No less than tau: see `core.bounds`.
+    """
+    count = len(tables.smoothing)
+    beliefs = np.full((1, count), 1.0 / count)
+    asked, keys, sums = np.full(1, NOBODY), np.zeros(1, dtype=np.uint64), np.zeros(1)
+    best, expanded = fixed.tau, 0
+    for step in range(LAST + 1):
+        now, found = opened(beliefs, asked, sums, fixed, step == LAST, tables)
+        best = max(best, found)
+        expanded += len(now)
+        if len(now) == 0 or (fixed.most_nodes > 0 and expanded > fixed.most_nodes):
+            break
+        before = beliefs[now]
+        children = acted(before, asked[now], keys[now], sums[now], scenario, step, fixed, tables)
+        kept = merged(children)
+        beliefs = np.empty((len(kept), count))
+        for index in range(len(kept)):
+            child = kept[index]
+            parent, rate = children.parents[child], 1.0  # the rate changes the answer's chance, not the belief
+            heard = before[parent] * scenario.evidence[step]
+            normalise(heard)
+            answered(heard, children.asked[child], children.answers[child], rate, beliefs[index], tables)
+        asked, keys, sums = children.asked[kept], children.keys[kept], children.sums[kept]
+    return best, expanded
+
+
+@compiled
+def opened(
+    beliefs: Vector, asked: Integers, sums: Vector, fixed: Relaxation, last: bool, tables: Tables
+) -> tuple[Integers, float]:
+    """Return the nodes of a layer to expand, and the best sum that a pick or a closed node ends at."""
+    nodes, count, best = np.empty(len(beliefs), dtype=np.int64), 0, -np.inf
+    for node in range(len(beliefs)):
+        belief = beliefs[node]
+        pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(belief)
+        sofar = sums[node] - control(belief, asked[node], fixed.table, tables)
+        most = ceiling(belief, asked[node], fixed.oracle, tables)
+        best = max(best, sofar + pick)
+        if sofar + most <= fixed.tau:
+            continue
+        if last or most <= pick + TIE:
+            best = max(best, sofar + most)
+            continue
+        nodes[count] = node
+        count += 1
+    return nodes[:count], best
+
+
+@compiled
+def acted(
+    beliefs: Vector, asked: Integers, keys: RandomState, sums: Vector,
+    scenario: Scenario, step: int, fixed: Relaxation, tables: Tables,
+) -> Children:  # fmt: skip
+    """Return the nodes after a wait and after every question in every node of a layer."""
+    count = len(tables.smoothing)
+    size = len(beliefs) * (count + 1)
+    whole = np.empty((3, size), dtype=np.int64)
+    children = Children(whole[0], whole[1], whole[2], np.empty(size, dtype=np.uint64), np.empty(size))
+    heard, expected, state, made = np.empty(count), np.empty(count + 1), np.empty(1, dtype=np.uint64), 0
+    for node in range(len(beliefs)):
+        state[0] = scenario.seeds[step]
+        estimate(beliefs[node], asked[node], heard, expected, state, fixed, tables)
+        sofar = sums[node] - control(beliefs[node], asked[node], fixed.table, tables)
+        for action in range(count + 1):
+            about, rate, reward = action, tables.p_l, tables.point
+            if action == count:
+                about, rate, reward = asked[node], tables.p_again, tables.wait
+            elif repeated(action, beliefs[node], asked[node], fixed.alike):
+                continue
+            answer = select_answer(scenario.desired, about, rate, scenario.speaks[step], scenario.means[step], tables)
+            children.parents[made], children.asked[made], children.answers[made] = node, about, answer
+            children.keys[made] = key_after(keys[node], asked[node], about, answer)
+            children.sums[made] = sofar + reward + expected[action]
+            made += 1
+    return Children(
+        children.parents[:made], children.asked[:made], children.answers[:made], children.keys[:made],
+        children.sums[:made],
+    )  # fmt: skip
+
+
+@lean
+def estimate(
+    belief: Vector, asked: int, heard: Vector, expected: Vector, state: RandomState, fixed: Relaxation, tables: Tables
+) -> None:
+    """Fill in unbiased estimates of E V^ after a question about each item, and last after a wait, (n + 1,)."""
+    count, table = len(belief), fixed.table
+    for action in range(count + 1):
+        expected[action] = 0.0
+    smoothed = smoothed_mass(belief, tables)
+    for number in range(outlook_size(fixed.distinct, tables)):
+        chance = look(number, belief, smoothed, heard, state, fixed.distinct, tables)
+        top = leading(heard)
+        classes = classes_of(top, table.breaks, tables)
+        for action in range(count + 1):
+            about, rate = (asked, tables.p_again) if action == count else (action, tables.p_l)
+            if action < count and repeated(action, belief, asked, fixed.alike):
+                continue
+            pairs = with_other(classes, about, top, table.breaks, tables)
+            own = heard[about] if about != NOBODY else 0.0
+            expected[action] += chance * answered_value(table.values, pairs, top, about, own, rate, tables)
+
+
+@inlined
+def repeated(item: int, belief: Vector, asked: int, alike: Integers) -> bool:
+    """Whether an earlier item is equal in all respects, so that asking about that one is as good for any policy."""
+    if item == asked or alike[item] == item:
+        return False
+    for other in range(alike[item], item):
+        if alike[other] == alike[item] and other != asked and abs(belief[other] - belief[item]) <= EQUAL:
+            return True
+    return False
+
+
+@inlined
+def scrambled(number: int) -> Any:
+    """Return 64 bits that look random, of a number from -2: SplitMix64."""
+    z = np.uint64(number + 2) * np.uint64(0x9E3779B97F4A7C15)
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return z ^ (z >> np.uint64(31))
+
+
+@inlined
+def key_after(key: Any, before: int, about: int, answer: int) -> Any:
+    """Return a node's key, 64 bits: a sum over answers, so that their order does not matter, and i_r."""
+    key += scrambled(2 * about + 1) - scrambled(2 * before + 1)
+    if answer == YES:
+        key += scrambled(2 * about)
+    elif answer == NO:
+        key -= scrambled(2 * about)
+    return key
+
+
+@compiled
+def merged(children: Children) -> Integers:
+    """Return the children with the largest S of those that are the same node."""
+    order = np.argsort(children.keys)
+    kept, count = np.empty(len(order), dtype=np.int64), 0
+    for index in order:
+        if count > 0 and children.keys[kept[count - 1]] == children.keys[index]:
+            if children.sums[index] > children.sums[kept[count - 1]]:
+                kept[count - 1] = index
+            continue
+        kept[count] = index
+        count += 1
+    return kept[:count]
