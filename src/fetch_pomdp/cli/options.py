@@ -10,7 +10,7 @@ import numpy as np
 import typer
 
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.planners.base import Planner
+from fetch_pomdp.core.planners.base import Planner, PreparedPlanner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.problem import Problem
 
@@ -47,6 +47,9 @@ def warm_up(planner: Planner, problem: Problem) -> None:
     timer.daemon = True
     timer.start()
     try:
-        planner.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
+        if isinstance(planner, PreparedPlanner):
+            planner.prepare(problem)
+        else:
+            planner.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
     finally:
         timer.cancel()

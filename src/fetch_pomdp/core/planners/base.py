@@ -52,6 +52,15 @@ class Planner(Protocol):
 
 
 @runtime_checkable
+class PreparedPlanner(Planner, Protocol):
+    """A planner that can do ahead what would keep its first decision waiting."""
+
+    def prepare(self, problem: Problem) -> None:
+        """Get ready to decide about a problem."""
+        ...
+
+
+@runtime_checkable
 class BudgetPlanner(Planner, Protocol):
     """A planner whose decisions may depend on the clock, and on a number of passes instead."""
 

@@ -81,9 +81,11 @@ class FittedValue:
         return dataclasses.replace(self, passes=passes, budget_ms=None)
 
     def prepare(self, problem: Problem) -> None:
-        """Solve the problem now, so that the first decision is as fast as the others."""
-        if problem.n_items <= MOST_FITTED:
-            solution(problem, self)
+        """Solve the problem and load what is compiled now, so that the first decision is as fast as the others."""
+        flat = Belief.uniform(problem.n_items)
+        self.decide(problem, flat, None, rng=np.random.default_rng(0))
+        if problem.n_items <= MOST_FITTED and self.budget_ms is not None:
+            self._refined(problem, flat.probabilities, NOBODY, 0, ends=0.0)
 
     def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
         """Choose the action with the highest value."""
