@@ -1,4 +1,4 @@
-"""The parts of the planner benchmark, `benchmarks/planners.py`."""
+"""The parts of the planner benchmarks, `benchmarks/planners.py` and `benchmarks/scenes.py`."""
 
 from typing import Any, TypeAlias
 
