@@ -23,8 +23,8 @@ def random_scene(seed: int) -> Scene:
       ahead, spaced L(0.05, 0.6) m; anywhere on a table of 1.2 by 1.6 m.
     - alpha L(0.05, 1), p_l U(0.6, 0.98), p_g U(0, 0.5), sigma L(0.05, 0.4) rad, p_truth U(0.9, 0.995); the gesture
       likelihood is exact or that of Eq. 7, as likely either.
-    - a right pick 10, a wrong one -12.5 * L(1/e, e), a wait -L(0.2, 2), a question -6 * L(0.3, 1.8), the wait's reward at
-      the most.
+    - a right pick 10, a wrong one -12.5 * L(1/e, e), a wait -L(0.2, 2), a question -6 * L(0.3, 1.8), at the most the
+      reward of a wait.
     """
     rng = default_rng((20261, seed))
     n_items = round(log_uniform(rng, 2.0, 50.0))

@@ -18,20 +18,24 @@ BEST_KNOWN = {"ambiguous": -0.235, "unambiguous": 1.798}
 
 # Marker, fill, line: told apart without colour.
 STYLES = {
+    "FittedValue": ("*", "black", "-"),
+    "Threshold": ("h", "white", ""),
     "ExactAnswers": ("o", "black", "-"),
     "ExactAnswers, depth 3": ("p", "black", ""),
     "ExactAnswers, leaf pick": ("o", "white", "-"),
     "SparseSampling": ("s", "0.55", "--"),
-    "SparseSampling, depth 3": ("p", "0.55", ""),
+    "SparseSampling, deeper": ("p", "0.55", ""),
     "NeverAsk": ("v", "white", ":"),
     "AlwaysAsk": ("^", "white", ":"),
     "plain NumPy": ("s", "white", "--"),
     "POUCT, aided": ("D", "0.55", "-."),
+    "POMCP, aided": ("D", "black", "-."),
     "POUCT, greedy": ("D", "white", "-."),
     "POUCT, random": ("x", "black", "-."),
 }
 SCALING = (
-    ("default", None, "ExactAnswers", DEFAULT),
+    (DEFAULT, None, "FittedValue", DEFAULT),
+    ("ExactAnswers, default", None, "ExactAnswers", "ExactAnswers, default"),
     ("ExactAnswers, leaf pick", 10, "ExactAnswers, leaf pick", "ExactAnswers(2, 10), leaf pick"),
     ("SparseSampling", 10, "SparseSampling", "SparseSampling(2, 10)"),
     ("NeverAsk", 10, "NeverAsk", "NeverAsk(2, 10)"),

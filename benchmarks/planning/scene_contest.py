@@ -84,8 +84,8 @@ def decision_time(problem: Problem, planner: Planner) -> float:
 def compared(earned: npt.NDArray[np.float64], default: npt.NDArray[np.float64]) -> Record:
     """Return a mean return and the difference to the default planner on the same people, with standard errors.
 
-    Who met fewer people than the default may have met easy ones: the return is the default's mean over all of its people
-    and the difference over those that both met.
+    Who met fewer people than the default may have met easy ones: the return is the default's mean over all of its
+    people and the difference over those that both met.
     """
     count, people = len(earned), len(default)
     behind = earned - default[:count]
