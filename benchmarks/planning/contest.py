@@ -62,22 +62,22 @@ def ours(problem: Problem) -> Iterator[Contestant]:
         ("FittedValue, 40,000 beliefs", FittedValue(beliefs=40_000)),
     )
     for name, planner in fitted:
-        yield Contestant(name, "FittedValue", Timed(planner), 10_000)
-    yield Contestant("Threshold", "Threshold", Timed(Threshold()), 10_000)
-    yield Contestant("Threshold, tuned", "Threshold", Timed(tuned(problem, TUNED_ON)), 10_000)
-    yield Contestant("ExactAnswers, default", "ExactAnswers", Timed(ExactAnswers()), 10_000)
-    for depth, width, episodes in ((2, 10, 10_000), (3, 10, 2_000)):
+        yield Contestant(name, "FittedValue", Timed(planner), 6_000)
+    yield Contestant("Threshold", "Threshold", Timed(Threshold()), 6_000)
+    yield Contestant("Threshold, tuned", "Threshold", Timed(tuned(problem, TUNED_ON)), 6_000)
+    yield Contestant("ExactAnswers, default", "ExactAnswers", Timed(ExactAnswers()), 6_000)
+    for depth, width, episodes in ((2, 10, 6_000), (3, 10, 2_000)):
         family = "ExactAnswers" if depth == 2 else "ExactAnswers, depth 3"
         yield Contestant(f"ExactAnswers({depth}, {width})", family, Timed(ExactAnswers(depth, width)), episodes)
     pick = Timed(ExactAnswers(2, 10, "pick"))
-    yield Contestant("ExactAnswers(2, 10), leaf pick", "ExactAnswers, leaf pick", pick, 10_000)
-    for depth, width, episodes in ((2, 10, 10_000), (2, 100, 5_000), (3, 10, 2_000), (4, 10, 120)):
+    yield Contestant("ExactAnswers(2, 10), leaf pick", "ExactAnswers, leaf pick", pick, 6_000)
+    for depth, width, episodes in ((2, 10, 6_000), (2, 100, 4_000), (3, 10, 2_000), (4, 10, 240)):
         family = "SparseSampling" if depth == 2 else "SparseSampling, deeper"
         yield Contestant(f"SparseSampling({depth}, {width})", family, Timed(SparseSampling(depth, width)), episodes)
-    yield Contestant("NeverAsk", "NeverAsk", Timed(NeverAsk()), 10_000)
-    yield Contestant("AlwaysAsk", "AlwaysAsk", Timed(AlwaysAsk()), 10_000)
+    yield Contestant("NeverAsk", "NeverAsk", Timed(NeverAsk()), 6_000)
+    yield Contestant("AlwaysAsk", "AlwaysAsk", Timed(AlwaysAsk()), 6_000)
     plain = Timed(PlainSparse(World(problem)))
-    yield Contestant("plain NumPy sparse sampling (2, 10)", "plain NumPy", plain, 1_500)
+    yield Contestant("plain NumPy sparse sampling (2, 10)", "plain NumPy", plain, 1_000)
 
 
 def theirs(problem: Problem, scene: str) -> Iterator[Contestant]:
@@ -85,12 +85,12 @@ def theirs(problem: Problem, scene: str) -> Iterator[Contestant]:
     field_: tuple[tuple[Style, int, int, int], ...] = (  # style, ms a decision, particles (0: POUCT), episodes
         ("random", 10, 0, 60),
         ("greedy", 10, 0, 60),
-        ("greedy", 100, 0, 24),
+        ("greedy", 100, 0, 20),
         ("aided", 10, 0, 120),
-        ("aided", 100, 0, 36),
+        ("aided", 100, 0, 30),
         ("aided", 1_000, 0, 12),
         ("aided", 10, PARTICLES, 60),
-        ("aided", 100, PARTICLES, 24),
+        ("aided", 100, PARTICLES, 18),
     )
     for style, milliseconds, particles, episodes in field_:
         solver = "POMCP" if particles else "POUCT"
