@@ -1,9 +1,10 @@
 """How fast and how good the planners are: `python benchmarks/planners.py [--quick] [--json] [--out DIR]`.
 
 One run measures, within 15 minutes of processor time (2 with --quick): compile and import times; decision times against
-items, depth and width; return and decision time on both study scenes, beside a plain NumPy sparse sampler and POUCT of
-pomdp_py, a process a scene. It prints the tables, and saves planners.json and planners.png. `--docs FILE` also writes the tables between
-the markers of a Markdown document; with `--from DIR` it does that with the results of an earlier run.
+items, depth and width; return and decision time on both study scenes, beside a plain NumPy sparse sampler, and POUCT
+and POMCP of pomdp_py, a process a scene. It prints the tables, and saves planners.json and planners.png. `--docs FILE`
+also writes the tables between the markers of a Markdown document; with `--from DIR` it does that with the results of an
+earlier run.
 """
 
 from __future__ import annotations
