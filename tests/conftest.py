@@ -36,6 +36,19 @@ settings.register_profile("repeatable", deadline=None, derandomize=True)
 settings.load_profile("repeatable")
 
 
+def _fit_quickly_without_compilation() -> None:
+    """In plain Python a fit takes minutes; the coverage run is about lines, so it fits on few beliefs."""
+    from fetch_pomdp.core.planners import fitted, fitting
+
+    whole = fitting.fitted
+    vars(fitting).update(ROUNDS=1, SWEEPS=1)
+    vars(fitted)["fitted"] = lambda problem, distinct, count, seed: whole(problem, distinct, min(count, 40), seed)
+
+
+if os.environ.get("NUMBA_DISABLE_JIT") == "1":
+    _fit_quickly_without_compilation()
+
+
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: takes long when Numba is off; left out of the coverage run")
     # Without compilation SplitMix64 wraps around in NumPy scalars, which warn.

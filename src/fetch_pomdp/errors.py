@@ -68,5 +68,9 @@ class AudioError(InputError):
     """A recording or stream of sound."""
 
 
+class ExportError(InputError):
+    """A file for other planners that cannot be written: too large, there already, or of no known format."""
+
+
 class MissingExtraError(FetchPomdpError, ImportError):
     """An optional library is not installed; the message is the line that installs it."""

@@ -16,7 +16,7 @@ from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.planners.fixed import AlwaysAsk
 from fetch_pomdp.core.planners.sparse import SparseSampling
 from fetch_pomdp.core.ports import Outcome
@@ -36,7 +36,7 @@ def test_starts_uniform_with_nothing_asked_and_our_planner() -> None:
     agent = Agent("ambiguous")
     assert agent.belief == pytest.approx([1 / 6] * 6)
     assert agent.asked is None
-    assert agent.planner == ExactAnswers()
+    assert agent.planner == FittedValue()
     assert agent.scene == Scene.load("ambiguous")
 
 

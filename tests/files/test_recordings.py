@@ -238,7 +238,7 @@ ONE_ITEM = {"id": "cup", "position": [0, 1, 0], "vocabulary": ["cup"]}
         ({"scene": "ambiguous", "rewards": {"wait": 1}}, "rewards.wait: found 1"),
         (
             {"scene": "ambiguous", "planner": "exakt"},
-            "planner: found 'exakt', expected one of exact, sparse, never, always",
+            "planner: found 'exakt', expected one of fitted, exact, sparse, threshold, never, always",
         ),
         ({"scene": "ambiguous", "planner": {"name": "exact", "dept": 2}}, "planner.dept: unknown parameter of planner"),
         ({"scene": "ambiguous", "planner": {"name": "exact", "depth": 0}}, "planner.depth: found 0"),

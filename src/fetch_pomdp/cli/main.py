@@ -7,6 +7,7 @@ import sys
 
 import typer
 
+from fetch_pomdp.cli.doors import export_scene
 from fetch_pomdp.cli.interact import fetch
 from fetch_pomdp.cli.offline import decide, filter_events, simulate
 from fetch_pomdp.errors import FetchPomdpError
@@ -23,6 +24,7 @@ app.command()(fetch)
 app.command("filter")(filter_events)
 app.command()(decide)
 app.command()(simulate)
+app.command("export")(export_scene)
 
 
 def main() -> None:

@@ -17,8 +17,10 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, Planner, best_action
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.planners.exact import ExactAnswers
+from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
 from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import PlannerError
@@ -74,7 +76,7 @@ def test_decisions_are_sound(planner: Planner, problem: Problem, asked: int | No
     decision = decide(planner, problem, belief, asked)
     assert_sound(decision, 6)
     assert decision.pick == pytest.approx(22.5 * np.array(belief) - 12.5, abs=1e-9)
-    if not isinstance(planner, AlwaysAsk):
+    if not isinstance(planner, AlwaysAsk | Threshold):
         values = [decision.wait, *decision.point, *decision.pick]
         assert decision.value == np.nanmax(values)
 
@@ -105,7 +107,7 @@ def test_a_table_with_one_item(planner: Planner, asked: int | None) -> None:
 def test_two_items(planner: Planner, asked: int | None, belief: list[float]) -> None:
     decision = decide(planner, table([["cup"], ["mug"]]), belief, asked)
     assert_sound(decision, 2)
-    if not isinstance(planner, NeverAsk | AlwaysAsk):
+    if not isinstance(planner, NeverAsk | AlwaysAsk | Threshold):
         assert np.isfinite([decision.wait, *decision.point]).all()
         assert max(decision.wait + 1, *(decision.point + 6)) <= 10 + 1e-9
 
@@ -127,6 +129,8 @@ def test_an_item_that_is_certain_is_picked(planner: Planner, item: int) -> None:
         SparseSampling(depth=1),
         NeverAsk(depth=3),
         AlwaysAsk(),
+        FittedValue(),
+        Threshold(),
     ],
 )
 def test_permuting_twins_permutes_values(planner: Planner, order: list[int]) -> None:
@@ -244,14 +248,14 @@ def test_value_is_that_of_the_action() -> None:
 
 
 def test_the_default_planner_is_ours() -> None:
-    assert planner_named(DEFAULT) == ExactAnswers()
+    assert planner_named(DEFAULT) == FittedValue()
     assert planner_named("sparse", depth=None, width=3) == SparseSampling(width=3)
 
 
 @pytest.mark.parametrize(
     ("name", "parameters", "message"),
     [
-        ("exakt", {}, "planner: found 'exakt', expected one of exact, sparse, never, always"),
+        ("exakt", {}, "planner: found 'exakt', expected one of fitted, exact, sparse, threshold, never, always"),
         (
             "exact",
             {"dept": 2},
@@ -268,6 +272,10 @@ def test_the_default_planner_is_ours() -> None:
         ("never", {"depth": 1.5}, "depth: found 1.5"),
         ("never", {"width": "10"}, "width: found '10'"),
         ("always", {"confidence": 0}, "confidence: found 0, expected a probability above 0 and at most 1"),
+        ("fitted", {"beliefs": 99}, "beliefs: found 99, expected a whole number from 100"),
+        ("fitted", {"rays": 0}, "rays: found 0"),
+        ("fitted", {"depth": 2}, "depth: unknown parameter of planner 'fitted', expected one of beliefs, rays, seed"),
+        ("threshold", {"pick": -0.1}, "pick: found -0.1, expected a belief from 0, or a limit to 2"),
         ("always", {"confidence": math.nan}, "confidence: found nan"),
     ],
 )

@@ -41,7 +41,7 @@ from fetch_pomdp.core.problem import Problem, Tables
 ROUNDS, SWEEPS = 3, 10
 LONGEST = 30  # steps of an interaction
 EXPLORES = 0.25  # share of the steps that explore: half of them wait, and more ask about the first than the second
-MOST_PATIENCE = 12  # steps before which an interaction may not pick, at the most
+PATIENT = 0.5  # share of the interactions that pick at no belief below one drawn uniformly
 ANSWERED = 0.2  # i_r that is no leader counts as answered up to this share of b2
 CERTAIN = 0.05  # b2 below which a pair is none
 UNFITTED = KINDS  # a wait between two kinds
@@ -85,14 +85,14 @@ def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> 
 def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tables) -> int:
     """Fill in the closenesses of leading pairs that are met; return how many."""
     count, belief, work = len(tables.smoothing), np.empty(len(tables.smoothing)), np.empty(len(tables.smoothing))
-    found, patience = 0, 0
+    found = 0
     for _ in range(len(close)):
         for item in range(count):
             belief[item] = 1.0 / count
         desired, asked = int(uniform(state) * count), NOBODY
-        patience = int(uniform(state) * MOST_PATIENCE)
-        for step in range(LONGEST):
-            action = explored(belief, asked, step < patience, table, state, tables)
+        least = uniform(state) if uniform(state) < PATIENT else 0.0
+        for _step in range(LONGEST):
+            action = explored(belief, asked, least, table, state, tables)
             if action >= count:
                 break
             rate = tables.p_again if action == NOBODY else tables.p_l
@@ -108,15 +108,15 @@ def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tabl
 
 
 @lean
-def explored(belief: Vector, asked: int, patient: bool, table: ValueTable, state: RandomState, tables: Tables) -> int:
-    """Return the table's action, or now and then another that goes on; a patient robot does not pick.
+def explored(belief: Vector, asked: int, least: float, table: ValueTable, state: RandomState, tables: Tables) -> int:
+    """Return the table's action, or now and then another that goes on; nothing is picked below the belief `least`.
 
     NOBODY is a wait, an item below n_items a question about it, n_items and more a pick.
     """
     top = leading(belief)
     action = table_action(belief, asked, top, table, tables)
     drawn = uniform(state)
-    if drawn >= EXPLORES and not (patient and action >= len(belief)):
+    if drawn >= EXPLORES and not (action >= len(belief) and top.b1 < least):
         return action
     which = uniform(state)
     if which < 0.5:
@@ -136,14 +136,14 @@ def meet(
         for item in range(count):
             belief[item] = 1.0 / count
         desired, asked = int(uniform(state) * count), NOBODY
-        patience = int(uniform(state) * uniform(state) * MOST_PATIENCE)
-        for step in range(LONGEST):
+        least = uniform(state) if uniform(state) < PATIENT else 0.0
+        for _step in range(LONGEST):
             if met == len(nodes):
                 break
             note(belief, asked, nodes, met, table.breaks, tables)
             look_ahead(belief, nodes, nexts, met, table.breaks, work, state, distinct, tables)
             met += 1
-            action = explored(belief, asked, step < patience, table, state, tables)
+            action = explored(belief, asked, least, table, state, tables)
             if action >= count:
                 break
             rate = tables.p_again if action == NOBODY else tables.p_l

@@ -19,12 +19,11 @@ from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import simulate
 from fetch_pomdp.errors import PlannerError
 
-GRID = {
-    "pick": (0.0, 0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 0.98),
-    "pair": (0.3, 0.5, 0.6, 0.7, 0.8, 0.87, 0.93, 1.1),
-    "hold": (0.2, 1.1),
-}
-HALVINGS = ((300, 16, 0.02), (1_500, 6, 0.01), (8_000, 1, 0.0))  # episodes, settings kept, spread of new ones beside
+PICKS = (0.0, 0.2, 0.3, 0.4, 0.45, *(0.5 + 0.02 * step for step in range(25)))
+PAIRS = (*(0.4 + 0.03 * step for step in range(20)), 1.1)
+HOLDS = (0.2, 1.1)
+# Episodes, settings kept, and how far from them new ones are drawn.
+HALVINGS = ((400, 60, 0.01), (2_000, 16, 0.01), (8_000, 6, 0.01), (20_000, 1, 0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,12 +69,12 @@ def tuned(problem: Problem, seed: int) -> Threshold:
     with the same people.
     """
     rng = np.random.default_rng(seed)
-    settings = [(pick, pair, hold) for pick in GRID["pick"] for pair in GRID["pair"] for hold in GRID["hold"]]
+    settings = [(pick, pair, hold) for pick in PICKS for pair in PAIRS for hold in HOLDS]
     for episodes, kept, spread in HALVINGS:
         earned = [simulate(problem, Threshold(*setting), episodes, seed).mean_return for setting in settings]
         settings = [settings[index] for index in np.argsort(-np.array(earned), kind="stable")[:kept]]
         if spread > 0.0:
-            near = rng.normal(0.0, spread, (3, len(settings), 2))
+            near = rng.normal(0.0, spread, (2, len(settings), 2))
             settings += [
                 (float(np.clip(pick + a, 0, 2)), float(np.clip(pair + b, 0, 2)), hold)
                 for moves in near

@@ -1,0 +1,1 @@
+"""The problem in the forms that planning and learning libraries take."""
