@@ -30,7 +30,7 @@ from planning import Record, scene_contest, scene_report  # noqa: E402
 from planning.drawn import HELD_OUT, LOOKED_AT  # noqa: E402
 from planning.named import SCENES  # noqa: E402
 
-EPISODES, QUICK = 16_000, 1_000
+EPISODES, QUICK = 10_000, 1_000
 WORST = 10  # scenes in the docs
 
 

@@ -21,7 +21,7 @@ from planning.timed import Timed
 DEFAULT, PAPER, TUNED, AT_ONCE = "default", "paper", "thresholds", "pick at once"
 LONG = "fit to each scene"
 TUNED_ON, PEOPLE = 77, 5  # seeds: thresholds are tuned on other people than all are compared on
-FEWER = 16 / 3  # the slow two, the paper's and the long fit, meet this times fewer people
+FEWER = 4  # the slow two, the paper's and the long fit, meet this times fewer people
 TIMED_EPISODES = 20  # played under the clock
 SHARE, POINTS = 0.1, 0.1  # of the paper planner's loss, and points, that may be lost to the best known
 
