@@ -6,7 +6,7 @@ import numpy as np
 
 from planning import Record
 from planning.report import short, table
-from planning.scene_contest import AT_ONCE, DEFAULT, LONG, PAPER, TUNED
+from planning.scene_contest import AT_ONCE, DEFAULT, LONG, PAPER, TUNED, scene_named
 
 PLANNERS = (DEFAULT, PAPER, TUNED, AT_ONCE, LONG)
 
@@ -16,26 +16,29 @@ def by_loss(results: Record) -> list[Record]:
     return sorted(results["scenes"], key=lambda found: -float(found["loss"]))
 
 
+CRITERIA = {
+    "below the best of paper, thresholds and pick at once by over 3 standard errors": "below_rival",
+    "within max(a tenth of the paper planner's loss, 0.1) of the best known": "within",
+    "the same, or over it by less than 2 standard errors of the difference": "within_2_errors",
+}
+LIKELIHOODS = {"exact": "exact gesture likelihood", "eq7": "that of Eq. 7"}
+
+
 def counts(results: Record) -> str:
-    """Return both criteria, counted."""
+    """Return both criteria, counted, by gesture likelihood too."""
     scenes = results["scenes"]
-    losses = np.array([found["loss"] for found in scenes])
-    below = [found["scene"] for found in scenes if found["below_rival"]]
-    rows = (
-        ("below the best of paper, thresholds and pick at once by over 3 standard errors", below),
-        (
-            "within max(a tenth of the paper planner's loss, 0.1) of the best known",
-            [found["scene"] for found in scenes if found["within"]],
-        ),
-        (
-            "the same, or over it by less than 2 standard errors of the difference",
-            [found["scene"] for found in scenes if found["within_2_errors"]],
-        ),
-    )
-    lines = [(name, f"{len(found)} of {len(scenes)}") for name, found in rows]
-    lines.append(("loss to the best known: mean", f"{losses.mean():.3f}"))
-    lines.append(("loss to the best known: worst", f"{losses.max():.3f}"))
-    return table(("the default planner", "scenes"), lines)
+    by_likelihood: dict[str, list[Record]] = {name: [] for name in LIKELIHOODS}
+    for found in scenes:
+        by_likelihood[scene_named(found["scene"]).model.gesture_likelihood].append(found)
+    groups = [scenes, *by_likelihood.values()]
+    lines = [
+        (name, *(f"{sum(found[key] for found in group)} of {len(group)}" for group in groups))
+        for name, key in CRITERIA.items()
+    ]
+    for name, of in (("mean", np.mean), ("worst", np.max)):
+        cells = [f"{of([found['loss'] for found in group]):.3f}" if group else "-" for group in groups]
+        lines.append((f"loss to the best known: {name}", *cells))
+    return table(("the default planner", "all scenes", *LIKELIHOODS.values()), lines)
 
 
 def returns(results: Record, most: int | None = None) -> str:
