@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fetch_pomdp import Belief, FittedValue, Planner, Problem, Scene, SparseSampling, Threshold, tuned
-from fetch_pomdp.core.simulation import run_episode
+from fetch_pomdp.core.simulation import MOST_STEPS, run_episode
 from planning import Record
 from planning.drawn import random_scene
 from planning.named import SCENES
@@ -53,6 +53,7 @@ def contest(name: str, episodes: int) -> Record:
             "accuracy": float(played.correct.mean()),
             "mean_steps": float(played.steps.mean()),
             "mean_questions": float(played.questions.mean()),
+            "at_the_end": float((played.steps == MOST_STEPS).mean()),  # share that had to pick after the last step
             "solve_s": solving,
             "decide_median_s": decision_time(problem, planner),
         })  # fmt: skip
