@@ -25,6 +25,7 @@ coverage: .venv/tested
 bench: .venv/tested
 	$(BIN)/pip install -q -r requirements/bench.txt
 	$(BIN)/python benchmarks/planners.py
+	$(BIN)/python benchmarks/scenes.py --named
 	$(BIN)/python benchmarks/speech.py
 
 picture: .venv/installed

@@ -14,22 +14,25 @@ from fetch_pomdp import (
     AlwaysAsk,
     Belief,
     ExactAnswers,
+    FittedValue,
     NeverAsk,
     Planner,
     Problem,
     Scene,
     SparseSampling,
+    Threshold,
     simulate,
 )
 
 ROOT = Path(__file__).parent.parent
 PAGES = (ROOT / "README.md", ROOT / "docs" / "planners.md")
 BEGIN, END = "<!-- numbers -->\n", "<!-- end of numbers -->\n"
-EPISODES = 20_000
+EPISODES = 50_000
 PLANNERS: dict[str, Planner] = {
-    "`ExactAnswers()`, the default": ExactAnswers(),
+    "`FittedValue()`, the default": FittedValue(),
+    "`ExactAnswers()`": ExactAnswers(),
+    "`Threshold()`, three numbers": Threshold(),
     "`SparseSampling(2, 10)`, the paper's": SparseSampling(2, 10),
-    '`ExactAnswers(2, 10, leaf="pick")`': ExactAnswers(2, 10, leaf="pick"),
     "`AlwaysAsk()`, paradigm two": AlwaysAsk(),
     "`NeverAsk()`, paradigm one": NeverAsk(),
 }

@@ -1,6 +1,6 @@
-"""The parts of the planner benchmark, `benchmarks/planners.py`."""
+"""The parts of the planner benchmarks, `benchmarks/planners.py` and `benchmarks/scenes.py`."""
 
 from typing import Any, TypeAlias
 
 Record: TypeAlias = dict[str, Any]  # a row of results, as it is written to JSON; names that end in _s are seconds
-DEFAULT = "ExactAnswers, default"  # the planner that all others are compared with
+DEFAULT = "FittedValue, default"  # the planner that all others are compared with

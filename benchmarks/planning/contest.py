@@ -6,7 +6,6 @@ draws from a stream of the seed and k alone, as in `fetch_pomdp.simulate`: diffe
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
@@ -16,37 +15,28 @@ from numpy.random import Generator
 from fetch_pomdp import (
     AlwaysAsk,
     Belief,
-    Decision,
     ExactAnswers,
+    FittedValue,
     NeverAsk,
-    Planner,
     Problem,
     Scene,
     SparseSampling,
+    Threshold,
+    tuned,
 )
 from fetch_pomdp.core.simulation import Episode, run_episode
 from planning import DEFAULT, Record
 from planning.plain import PlainSparse, World
+from planning.timed import Timed
 from planning.uct import Style, Uct
 
 SCENES = ("ambiguous", "unambiguous")
 EXPLORATION = (5.0, 20.0, 60.0)  # of UCB1, in units of reward; a right pick and a wrong one are 22.5 apart
+LONG_EXPLORATION = {"ambiguous": 20.0, "unambiguous": 60.0}  # at a second a decision: the best with less time
+PARTICLES = 1_000
+TUNED_ON = 77  # seed of the people that thresholds are tuned on
 ROUNDS = 10
-
-
-@dataclass(slots=True)
-class Timed:
-    """A planner, and how long its decisions took (s of processor time, on one core)."""
-
-    planner: Planner
-    times: list[float] = field(default_factory=list)
-
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
-        """Pass the planner's decision on."""
-        start = time.process_time()
-        decision = self.planner.decide(problem, belief, asked, rng=rng)
-        self.times.append(time.process_time() - start)
-        return decision
+LEAST = 12  # episodes
 
 
 @dataclass(slots=True)
@@ -57,59 +47,72 @@ class Contestant:
     family: str
     planner: Timed
     episodes: int
-    simulations: int = 0  # of POUCT, a decision
+    milliseconds: int = 0  # of POUCT, a decision
     exploration: float = 0.0
     played: list[Episode] = field(default_factory=list)
 
 
 def ours(problem: Problem) -> Iterator[Contestant]:
     """Yield the package's planners and the plain sampler."""
-    yield Contestant(DEFAULT, "ExactAnswers", Timed(ExactAnswers()), 20_000)
-    for depth, width, episodes in ((2, 10, 10_000), (2, 160, 10_000), (3, 10, 3_000)):
-        name = f"ExactAnswers({depth}, {width})"
-        family = "ExactAnswers" if depth == 2 else "ExactAnswers, depth 3"
-        yield Contestant(name, family, Timed(ExactAnswers(depth, width)), episodes)
-    pick = Timed(ExactAnswers(2, 10, "pick"))
-    yield Contestant("ExactAnswers(2, 10), leaf pick", "ExactAnswers, leaf pick", pick, 10_000)
-    for depth, width, episodes in ((2, 10, 20_000), (2, 100, 5_000), (3, 10, 2_000)):
-        name = f"SparseSampling({depth}, {width})"
-        family = "SparseSampling" if depth == 2 else "SparseSampling, depth 3"
-        yield Contestant(name, family, Timed(SparseSampling(depth, width)), episodes)
-    yield Contestant("NeverAsk", "NeverAsk", Timed(NeverAsk()), 20_000)
-    yield Contestant("AlwaysAsk", "AlwaysAsk", Timed(AlwaysAsk()), 20_000)
-    plain = Timed(PlainSparse(World(problem)))
-    yield Contestant("plain NumPy sparse sampling (2, 10)", "plain NumPy", plain, 1_500)
-
-
-def theirs(problem: Problem) -> Iterator[Contestant]:
-    """Yield POUCT by style, budget and exploration constant."""
-    field_: tuple[tuple[Style, int, int], ...] = (
-        ("random", 1_000, 200),
-        ("greedy", 1_000, 200),
-        ("greedy", 10_000, 40),
-        ("aided", 100, 600),
-        ("aided", 1_000, 200),
-        ("aided", 10_000, 60),
+    fitted: tuple[tuple[str, FittedValue], ...] = (
+        (DEFAULT, FittedValue()),
+        ("FittedValue, 32 rays", FittedValue(rays=32)),
+        ("FittedValue, 2 rays", FittedValue(rays=2)),
+        ("FittedValue, 1,000 beliefs", FittedValue(beliefs=1_000)),
+        ("FittedValue, 40,000 beliefs", FittedValue(beliefs=40_000)),
     )
-    for style, simulations, episodes in field_:
-        for exploration in EXPLORATION:
-            planner = Timed(Uct(problem, simulations, exploration, style))
-            name = f"pomdp_py POUCT, {style}, {simulations}"
-            yield Contestant(name, f"POUCT, {style}", planner, episodes, simulations, exploration)
+    for name, planner in fitted:
+        yield Contestant(name, "FittedValue", Timed(planner), 6_000)
+    yield Contestant("Threshold", "Threshold", Timed(Threshold()), 6_000)
+    yield Contestant("Threshold, tuned", "Threshold", Timed(tuned(problem, TUNED_ON)), 6_000)
+    yield Contestant("ExactAnswers, default", "ExactAnswers", Timed(ExactAnswers()), 6_000)
+    for depth, width, episodes in ((2, 10, 6_000), (3, 10, 2_000)):
+        family = "ExactAnswers" if depth == 2 else "ExactAnswers, depth 3"
+        yield Contestant(f"ExactAnswers({depth}, {width})", family, Timed(ExactAnswers(depth, width)), episodes)
+    pick = Timed(ExactAnswers(2, 10, "pick"))
+    yield Contestant("ExactAnswers(2, 10), leaf pick", "ExactAnswers, leaf pick", pick, 6_000)
+    for depth, width, episodes in ((2, 10, 6_000), (2, 100, 4_000), (3, 10, 2_000), (4, 10, 240)):
+        family = "SparseSampling" if depth == 2 else "SparseSampling, deeper"
+        yield Contestant(f"SparseSampling({depth}, {width})", family, Timed(SparseSampling(depth, width)), episodes)
+    yield Contestant("NeverAsk", "NeverAsk", Timed(NeverAsk()), 6_000)
+    yield Contestant("AlwaysAsk", "AlwaysAsk", Timed(AlwaysAsk()), 6_000)
+    plain = Timed(PlainSparse(World(problem)))
+    yield Contestant("plain NumPy sparse sampling (2, 10)", "plain NumPy", plain, 1_000)
+
+
+def theirs(problem: Problem, scene: str) -> Iterator[Contestant]:
+    """Yield POUCT and POMCP by style, time and exploration constant."""
+    field_: tuple[tuple[Style, int, int, int], ...] = (  # style, ms a decision, particles (0: POUCT), episodes
+        ("random", 10, 0, 60),
+        ("greedy", 10, 0, 60),
+        ("greedy", 100, 0, 20),
+        ("aided", 10, 0, 120),
+        ("aided", 100, 0, 30),
+        ("aided", 1_000, 0, 12),
+        ("aided", 10, PARTICLES, 60),
+        ("aided", 100, PARTICLES, 18),
+    )
+    for style, milliseconds, particles, episodes in field_:
+        solver = "POMCP" if particles else "POUCT"
+        for exploration in EXPLORATION if milliseconds < 1_000 else (LONG_EXPLORATION[scene],):
+            uct = Uct(problem, milliseconds / 1_000, exploration, style, particles)
+            name = f"pomdp_py {solver}, {style}, {milliseconds:,} ms"
+            rival = Contestant(name, f"{solver}, {style}", Timed(uct), episodes, milliseconds, exploration)
+            yield rival
 
 
 def contest(scene: str, share: float, seed: int, say: Callable[[str], None]) -> list[Record]:
     """Play a scene with all contestants. share: of the full number of episodes."""
     problem = Problem(Scene.load(scene))
-    slowest = 10_000 if share == 1.0 else 1_000  # simulations
-    field_ = [*ours(problem), *(rival for rival in theirs(problem) if rival.simulations <= slowest)]
+    slowest = 1_000 if share == 1.0 else 10  # ms
+    field_ = [*ours(problem), *(rival for rival in theirs(problem, scene) if rival.milliseconds <= slowest)]
     warm = Belief.uniform(problem.n_items)
     for rival in field_:  # compiled and loaded before the clock starts
         rival.planner.planner.decide(problem, warm, None, rng=np.random.default_rng(0))
     robots = [np.random.default_rng((seed, number)) for number in range(len(field_))]
     for round_ in range(ROUNDS):
         for rival, robot in zip(field_, robots, strict=True):
-            goal = max(20, round(rival.episodes * share)) * (round_ + 1) // ROUNDS
+            goal = max(LEAST, round(rival.episodes * share)) * (round_ + 1) // ROUNDS
             play(rival, problem, goal, (seed, robot))
         say(f"  {scene}: round {round_ + 1} of {ROUNDS}")
     reference = earned(next(rival for rival in field_ if rival.name == DEFAULT))
@@ -135,6 +138,7 @@ def record(rival: Contestant, scene: str, reference: list[float]) -> Record:
     returns, times = np.array(earned(rival)), np.array(rival.planner.times)
     behind = returns - np.array(reference[: len(returns)])
     root = np.sqrt(len(returns))
+    simulations = rival.planner.planner.simulated if isinstance(rival.planner.planner, Uct) else 0
     return {
         "scene": scene,
         "planner": rival.name,
@@ -149,8 +153,8 @@ def record(rival: Contestant, scene: str, reference: list[float]) -> Record:
         "mean_questions": float(np.mean([episode.questions for episode in rival.played])),
         "decide_median_s": float(np.median(times)),
         "decide_best_s": float(np.quantile(times, 0.05)),
-        "simulations": rival.simulations,
-        "simulations_per_s": rival.simulations / float(np.median(times)),
+        "milliseconds": rival.milliseconds,
+        "simulations_per_s": simulations / float(times.sum()),
         "exploration": rival.exploration,
     }
 

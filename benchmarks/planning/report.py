@@ -14,8 +14,8 @@ TARGETS = (
     ("kernel", "ExactAnswers, leaf pick", 6, 3, 10, 330e-6),
     ("kernel", "ExactAnswers, leaf pick", 1_000, 2, 10, 46e-6),
     ("kernel", "ExactAnswers, leaf pick", 100_000, 2, 10, 5.3e-3),
-    ("decide", "default", 6, 2, 40, 30e-6),
-    ("decide", "default", 100_000, 2, 10, 5e-3),
+    ("decide", "ExactAnswers, default", 6, 2, 80, 30e-6),
+    ("decide", "ExactAnswers, default", 100_000, 2, 5, 5e-3),
 )
 
 
@@ -85,14 +85,16 @@ def startup(times: dict[str, dict[str, float]]) -> str:
 def by_items(times: list[Record], column: str) -> str:
     """Return times against the number of items; a dash is too long to measure."""
     sizes = sorted({case["items"] for case in times})
-    found = {(c["planner"], c["depth"], c["width"], c["items"]): c[column] for c in times if c["planner"] != "default"}
+    own = ("ExactAnswers, default", DEFAULT)  # without a depth and a width
+    found = {(c["planner"], c["depth"], c["width"], c["items"]): c[column] for c in times if c["planner"] not in own}
     settings = dict.fromkeys((planner, depth, width) for planner, depth, width, _ in found)
     rows = []
     for planner, depth, width in sorted(settings, key=lambda s: (list(settings).index((s[0], 2, 10)), *s[1:])):
         cells = [found.get((planner, depth, width, size)) for size in sizes]
         rows.append((f"{planner} ({depth}, {width})", *("-" if cell is None else short(cell) for cell in cells)))
-    default = {case["items"]: case[column] for case in times if case["planner"] == "default"}
-    rows.append((DEFAULT, *(short(default[size]) for size in sizes)))
+    for name in own:
+        measured = {case["items"]: case[column] for case in times if case["planner"] == name}
+        rows.append((name, *(short(measured[size]) if size in measured else "-" for size in sizes)))
     return table(("planner (depth, width)", *(f"{size:,} items" for size in sizes)), rows)
 
 
@@ -144,12 +146,14 @@ def exploration(records: list[Record]) -> str:
     """Return POUCT's results at every exploration constant."""
     rows = []
     for found in records:
-        if found["simulations"]:
+        if found["milliseconds"]:
             rows.append((
-                f"{found['planner'].removeprefix('pomdp_py POUCT, ')}, {found['scene']}",
+                f"{found['planner'].removeprefix('pomdp_py ')}, {found['scene']}",
                 f"{found['exploration']:g}",
                 f"{found['mean_return']:+.2f} +- {found['standard_error']:.2f}",
                 str(found["episodes"]),
                 f"{found['simulations_per_s']:,.0f}",
             ))  # fmt: skip
-    return table(("style, simulations, scene", "constant", "return", "episodes", "simulations a second"), rows)
+    return table(
+        ("solver, style, time a decision, scene", "constant", "return", "episodes", "simulations a second"), rows
+    )

@@ -13,13 +13,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fetch_pomdp import Agent, Belief, ExactAnswers, NeverAsk, Planner, Problem, SparseSampling
+from fetch_pomdp import Agent, Belief, ExactAnswers, FittedValue, NeverAsk, Planner, Problem, SparseSampling
 from fetch_pomdp.core.compiled import Vector, compiled
 from fetch_pomdp.core.planners.exact import default_width, plan_exact
+from fetch_pomdp.core.planners.fitted import MOST_FITTED, Solution, solution, step_ahead
 from fetch_pomdp.core.planners.kernels import NOBODY, Search
 from fetch_pomdp.core.planners.sparse import plan_sparse
 from fetch_pomdp.core.problem import Tables
-from planning import Record
+from planning import DEFAULT, Record
 from planning.scenes import problem_of
 
 ITEMS = (6, 20, 100, 1_000, 10_000, 100_000)
@@ -45,6 +46,15 @@ def sparse_loop(times: int, belief: Vector, search: Search, seed: int, tables: T
     total = 0.0
     for call in range(times):
         total += plan_sparse(belief, NOBODY, search, seed + call, tables)[0]
+    return total
+
+
+@compiled
+def fitted_loop(times: int, belief: Vector, solved: Solution, seed: int, tables: Tables) -> float:
+    """Decide `times` times from compiled code, like `exact_loop`."""
+    total = 0.0
+    for call in range(times):
+        total += step_ahead(belief, NOBODY, solved.table, solved.distinct, seed + call, tables)[0]
     return total
 
 
@@ -109,7 +119,18 @@ def cases(n_items: int, limit: float) -> Iterator[Case]:
                     yield case
     width = default_width(n_items)
     search = Search(2, width, n_items, True)
-    yield Case("default", n_items, 2, width, ExactAnswers(), exact_loop, search)
+    yield Case("ExactAnswers, default", n_items, 2, width, ExactAnswers(), exact_loop, search)
+
+
+def fitted_case(problem: Problem) -> Case:
+    """Return the default planner, once it has solved the problem."""
+    planner = FittedValue()
+    solved = solution(problem, planner)
+
+    def loop(times: int, belief: Vector, search: Search, seed: int, tables: Tables) -> float:  # noqa: ARG001
+        return fitted_loop(times, belief, solved, seed, tables)
+
+    return Case(DEFAULT, problem.n_items, 2, planner.rays, planner, loop, Search(2, planner.rays, 0, False))
 
 
 def timed(call: Callable[[int], object], once: float) -> float:
@@ -144,6 +165,9 @@ def decision_times(turns: int, limit: float, say: Callable[[str], None]) -> list
         problem = problem_of(n_items)
         built = time.process_time() - start
         belief, field_ = Belief.uniform(n_items), list(cases(n_items, limit))
+        if n_items <= MOST_FITTED:  # larger ones are ExactAnswers
+            field_.append(fitted_case(problem))
+            fitted_loop(1, belief.probabilities, solution(problem, FittedValue()), 0, problem.tables)
         for case in field_[:4]:  # compiled and loaded before the clock starts
             case.loop(1, belief.probabilities, case.search._replace(width=1), 0, problem.tables)
         spent = dict.fromkeys(range(len(field_)), 0.0)

@@ -1,7 +1,9 @@
-"""POUCT of pomdp_py on our model, as fast as we can make it: the tree search is the library's, all around it is ours.
+"""POUCT and POMCP of pomdp_py on our model, as fast as we can make them: the tree search is theirs, the rest ours.
 
 What is handed to it, so that only the planning differs:
-- the belief: desired items are drawn from our exact Bayes filter at every decision, and a new tree is grown;
+- the belief: desired items are drawn from our exact Bayes filter at every decision, and a new tree is grown. For POMCP,
+  which is POUCT with a particle belief, so are its particles: with its own update it fails as soon as the robot hears
+  what no simulation had heard;
 - observations: drawn by our compiled sampler, thousands for every desired item and kind of question, before the clock
   starts; a simulated step takes the next of them. Those that say the same about every item are one node of the tree: a
   word counts as the set of items it may refer to, an answer as yes, no or silence, and as silence if nothing was asked.
@@ -17,7 +19,8 @@ Three styles, each with more help than the one before:
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import time
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -38,6 +41,8 @@ from fetch_pomdp.core.rays import turned
 Style = Literal["random", "greedy", "aided"]
 MOST_ACTIONS = 10  # the longest look ahead
 DRAWN = 8192  # observations a stream; a power of 2
+BLOCK = 512  # desired items drawn at once
+ROUND = 32  # simulations between two looks at the clock
 END = 1000  # steps that a pick takes: beyond the longest look ahead, where the library stops
 NOT_ASKED, RIGHT, OTHER = 0, 1, 2  # what was asked about: nothing, the desired item, another
 
@@ -46,6 +51,8 @@ class Hidden(pomdp_py.State):  # type: ignore[misc]
     """The desired item, the last question and, for the greedy rollout, the belief that this history leads to."""
 
     __slots__ = ("asked", "desired", "weights")
+    __hash__ = object.__hash__
+    __eq__ = object.__eq__
 
     def __init__(self, desired: int, asked: int, weights: Vector | None) -> None:
         self.desired, self.asked, self.weights = desired, asked, weights
@@ -71,10 +78,20 @@ class Move(pomdp_py.Action):  # type: ignore[misc]
 
 
 class Drawn(pomdp_py.GenerativeDistribution):  # type: ignore[misc]
-    """Desired items drawn from the belief, handed out one by one."""
+    """Desired items drawn from the belief."""
 
-    def __init__(self, states: list[Hidden]) -> None:
-        self._next = iter(states).__next__
+    def __init__(self, states: list[Hidden], weights: Vector, rng: Generator) -> None:
+        self._states, self._sums, self._rng = states, np.cumsum(weights), rng
+        self._next = self._drawn().__next__
+
+    def _drawn(self) -> Iterator[Hidden]:
+        while True:
+            yield from self.some(BLOCK)
+
+    def some(self, count: int) -> list[Hidden]:
+        """Return that many states."""
+        found = np.searchsorted(self._sums, self._rng.random(count) * self._sums[-1])
+        return [self._states[item] for item in found.tolist()]
 
     def random(self) -> Hidden:
         """Return the next state."""
@@ -228,12 +245,14 @@ ROLLOUTS: Mapping[Style, type[RandomRollout]] = {
 
 @dataclass(frozen=True, slots=True)
 class Uct:
-    """POUCT as a Planner. A new tree at every decision; discount 1, as the return has none."""
+    """POUCT or POMCP as a Planner. A new tree at every decision; discount 1, as the return has none."""
 
     problem: Problem  # the one it will be asked about: its observations are drawn ahead
-    simulations: int
+    seconds: float  # of processor time a decision: a busy machine takes nothing from it
     exploration: float  # of UCB1, in units of reward
     style: Style = "aided"
+    particles: int = 0  # of POMCP; 0 is POUCT
+    _counts: list[int] = field(default_factory=lambda: [0], repr=False)
     _parts: tuple[Simulator, RandomRollout] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -242,8 +261,13 @@ class Uct:
         moves = [Move(action) for action in actions]
         object.__setattr__(self, "_parts", (Simulator(self.problem), ROLLOUTS[self.style](moves)))
 
+    @property
+    def simulated(self) -> int:
+        """Return how many simulations there were, in all decisions."""
+        return self._counts[0]
+
     def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
-        """Choose the action with the highest value after `simulations` simulations."""
+        """Choose the action with the highest value when time is up."""
         simulator, rollout = self._parts
         simulator.cursor = int(rng.integers(DRAWN))
         rollout.numbers = rng
@@ -251,15 +275,21 @@ class Uct:
         about = -1 if asked is None else asked
         carried = None if self.style == "random" else weights
         states = [Hidden(item, about, carried) for item in range(problem.n_items)]
-        desired = np.searchsorted(np.cumsum(weights), rng.random(self.simulations) * weights.sum())
-        drawn = Drawn([states[item] for item in desired.tolist()])
-        agent = pomdp_py.Agent(drawn, policy_model=rollout, blackbox_model=simulator)
-        search = pomdp_py.POUCT(
+        drawn = Drawn(states, weights, rng)
+        belief_ = pomdp_py.Particles(drawn.some(self.particles)) if self.particles else drawn
+        agent = pomdp_py.Agent(belief_, policy_model=rollout, blackbox_model=simulator)
+        search = (pomdp_py.POMCP if self.particles else pomdp_py.POUCT)(
             max_depth=MOST_ACTIONS,
-            num_sims=self.simulations,
+            planning_time=-1.0,
+            num_sims=ROUND,
             discount_factor=1.0,
             exploration_const=self.exploration,
             rollout_policy=rollout,
         )
-        action: Action = search.plan(agent).action
+        end = time.process_time() + self.seconds
+        while True:  # every call grows the same tree
+            action: Action = search.plan(agent).action
+            self._counts[0] += ROUND
+            if time.process_time() >= end:
+                break
         return Decision(action, np.nan, unvalued(problem), pick_values(weights, problem))
