@@ -15,8 +15,9 @@ import numpy as np
 
 from fetch_pomdp import Agent, Belief, ExactAnswers, FittedValue, NeverAsk, Planner, Problem, SparseSampling
 from fetch_pomdp.core.compiled import Vector, compiled
+from fetch_pomdp.core.planners.ahead import step_ahead
 from fetch_pomdp.core.planners.exact import default_width, plan_exact
-from fetch_pomdp.core.planners.fitted import MOST_FITTED, Solution, solution, step_ahead
+from fetch_pomdp.core.planners.fitted import MOST_FITTED, Solution, solution
 from fetch_pomdp.core.planners.kernels import NOBODY, Search
 from fetch_pomdp.core.planners.sparse import plan_sparse
 from fetch_pomdp.core.problem import Tables
@@ -54,7 +55,7 @@ def fitted_loop(times: int, belief: Vector, solved: Solution, seed: int, tables:
     """Decide `times` times from compiled code, like `exact_loop`."""
     total = 0.0
     for call in range(times):
-        total += step_ahead(belief, NOBODY, solved.table, solved.distinct, seed + call, tables)[0]
+        total += step_ahead(belief, NOBODY, solved.table, solved.distinct, seed + call, 1, tables)[0]
     return total
 
 

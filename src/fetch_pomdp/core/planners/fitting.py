@@ -92,12 +92,9 @@ def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tabl
         desired, asked = int(uniform(state) * count), NOBODY
         least = uniform(state) if uniform(state) < PATIENT else 0.0
         for _step in range(LONGEST):
-            action = explored(belief, asked, least, table, state, tables)
-            if action >= count:
+            asked = explored_step(belief, asked, desired, least, table, work, state, tables)
+            if asked == count:
                 break
-            rate = tables.p_again if action == NOBODY else tables.p_l
-            asked = asked if action == NOBODY else action
-            live_step(belief, smoothed_mass(belief, tables), desired, asked, rate, work, state, tables)
             top = leading(belief)
             if top.b2 > CERTAIN:
                 close[found] = closeness(top.first, top.second, tables)
@@ -105,6 +102,27 @@ def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tabl
             if found == len(close):
                 return found
     return found
+
+
+@lean
+def explored_step(
+    belief: Vector,
+    asked: int,
+    desired: int,
+    least: float,
+    table: ValueTable,
+    work: Vector,
+    state: RandomState,
+    tables: Tables,
+) -> int:
+    """Go on by a step that may explore, and replace the belief; return i_r, or n_items after a pick."""
+    action = explored(belief, asked, least, table, state, tables)
+    if action >= len(belief):
+        return len(belief)
+    rate = tables.p_again if action == NOBODY else tables.p_l
+    following = asked if action == NOBODY else action
+    live_step(belief, smoothed_mass(belief, tables), desired, following, rate, work, state, tables)
+    return following
 
 
 @lean
@@ -143,12 +161,9 @@ def meet(
             note(belief, asked, nodes, met, table.breaks, tables)
             look_ahead(belief, nodes, nexts, met, table.breaks, work, state, distinct, tables)
             met += 1
-            action = explored(belief, asked, least, table, state, tables)
-            if action >= count:
+            asked = explored_step(belief, asked, desired, least, table, work, state, tables)
+            if asked == count:
                 break
-            rate = tables.p_again if action == NOBODY else tables.p_l
-            asked = asked if action == NOBODY else action
-            live_step(belief, smoothed_mass(belief, tables), desired, asked, rate, work, state, tables)
 
 
 @inlined
