@@ -266,3 +266,23 @@ def test_a_budget_refines_where_actions_are_close_and_replays_without_a_clock() 
             close = decision
             assert decision.wait_error < plain.wait_error
     assert close is not None
+
+
+def test_a_budget_leaves_at_least_one_pass() -> None:
+    planner = FittedValue(budget_ms=0.0)
+    planner.prepare(twins(3))
+    decision = planner.decide(twins(3), Belief([0.5, 0.3, 0.2]), None, rng=default_rng(0))
+    assert decision.passes == 1
+    assert decision.wait == FittedValue().decide(twins(3), Belief([0.5, 0.3, 0.2]), None, rng=default_rng(0)).wait
+    assert planner.with_passes(3) == FittedValue(passes=3)
+
+
+@pytest.mark.parametrize("planner", [FittedValue(), Threshold(), SparseSampling(2, 2)])
+def test_a_few_decisions_at_once(planner: FittedValue | Threshold | SparseSampling) -> None:
+    problem, beliefs = twins(3), np.array([[0.9, 0.05, 0.05], [0.5, 0.25, 0.25]])
+    together = decide_many(planner, problem, beliefs, np.array([-1, 0]), rng=default_rng(2))
+    rng = default_rng(2)
+    alone = [
+        planner.decide(problem, Belief(b), about, rng=rng).action for b, about in zip(beliefs, (None, 0), strict=True)
+    ]
+    assert [action_of(code, problem) for code in together.tolist()] == alone
