@@ -8,22 +8,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from fetch_pomdp import Planner, Problem, decide_many
+from fetch_pomdp import Planner, Problem
 from fetch_pomdp.core.playing import Interactions
-from fetch_pomdp.core.simulation import MOST_STEPS
+from fetch_pomdp.core.simulation import played_out
 
 
 def met(problem: Problem, planner: Planner, episodes: int, seed: int) -> Interactions:
     """Return the interactions at their ends; episode k meets the same person whatever the planner."""
     robot, people = np.random.default_rng(seed), np.random.default_rng((seed, 1))
     streams = people.integers(2**63, size=episodes, dtype=np.uint64)
-    played = Interactions.begin(np.arange(episodes) % problem.n_items, streams, problem.n_items)
-    active = np.arange(episodes)
-    for _ in range(MOST_STEPS):
-        actions = decide_many(planner, problem, played.beliefs[active], played.asked[active], rng=robot)
-        played.advance(active, actions, problem)
-        active = active[played.over[active] == 0]
-        if not len(active):
-            return played
-    played.advance(active, problem.n_items + played.beliefs[active].argmax(axis=1), problem)
-    return played
+    begun = Interactions.begin(np.arange(episodes) % problem.n_items, streams, problem.n_items)
+    return played_out(problem, planner, begun, robot)

@@ -8,7 +8,7 @@ import math
 import statistics
 import time
 from dataclasses import dataclass
-from typing import Annotated, Any, Protocol, runtime_checkable
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -19,7 +19,7 @@ from rich.table import Table
 from fetch_pomdp.cli.options import Json, SceneName, Seed, as_json
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.bounds import Bound, upper_bound
-from fetch_pomdp.core.planners.base import Decision, Planner
+from fetch_pomdp.core.planners.base import Decision, Planner, PreparedPlanner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
@@ -27,9 +27,7 @@ from fetch_pomdp.core.simulation import run_episode, simulate
 
 COMPARED = (DEFAULT, "sparse", "never", "always")
 TIMED_EPISODES = 30
-NUDGE = (
-    1e-4  # m: moves the head of the scene that planners are compiled on, so that no solution is kept for the real one
-)
+NUDGE = 1e-4  # m, of the head of the scene that planners are compiled on: no solution is kept for the real one
 
 Planners = Annotated[
     list[str] | None,
@@ -52,15 +50,6 @@ class Standing:
     gap_error: float  # standard error of the gap
     solving_seconds: float  # once a scene, before the first decision
     decision_seconds: float  # the median
-
-
-@runtime_checkable
-class Preparable(Protocol):
-    """A planner that solves a problem before its first decision."""
-
-    def prepare(self, problem: Problem) -> None:
-        """Solve the problem now."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +102,7 @@ def timed(planner: Planner, problem: Problem) -> tuple[float, float]:
     nudged = Problem(dataclasses.replace(scene, head=(x, y, z + NUDGE)))
     planner.decide(nudged, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
     begin = time.perf_counter()
-    if isinstance(planner, Preparable):
+    if isinstance(planner, PreparedPlanner):
         planner.prepare(problem)
     solving = time.perf_counter() - begin
     watch = Stopwatch(planner, [])

@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from numba import njit
 
+GOLDEN = 0x9E3779B97F4A7C15  # step of SplitMix64
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 Vector = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
@@ -51,17 +53,21 @@ def random_state(seed: int) -> RandomState:
 
 
 @inlined
+def mixed(z: Any) -> Any:
+    """Return 64 bits that look random, of 64 bits: the mixing of SplitMix64."""
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return z ^ (z >> np.uint64(31))
+
+
+@inlined
 def uniform(state: RandomState) -> float:
     """Return a number in [0, 1) and advance the state: SplitMix64 (Steele, Lea and Flood 2014).
 
     Choice: a generator of one word, since a planner starts one for every decision.
     """
-    state[0] += np.uint64(0x9E3779B97F4A7C15)
-    z = state[0]
-    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    z = z ^ (z >> np.uint64(31))
-    return float(z >> np.uint64(11)) * 2.0**-53
+    state[0] += np.uint64(GOLDEN)
+    return float(mixed(state[0]) >> np.uint64(11)) * 2.0**-53
 
 
 @inlined

@@ -11,7 +11,6 @@ rays by Eq. 7: that is no distribution over rays, so it gives no chances. A ray 
 from __future__ import annotations
 
 import math
-from collections import defaultdict
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -21,12 +20,12 @@ from fetch_pomdp.core import gesture, language
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.compiled import Vector, compiled
 from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.kernels import NO, SILENT, YES
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import turned
 from fetch_pomdp.core.words import POSITIVE
 from fetch_pomdp.errors import ModelError, ObservationError, SceneError
 
-SILENT, YES, NO = 0, 1, 2  # classes of responses
 MOST_RINGS = 16
 MOST_ITEMS = 200  # the quadrature takes time quadratic in their number: 200 take some 5 s
 ROLLS, CELLS = 256, 512  # of the quadrature over rays: errors of chances are about p_g / 2000
@@ -60,7 +59,8 @@ class Discrete:
             raise ModelError(found, field="rings")
         if self.problem.n_items > MOST_ITEMS:
             raise SceneError(f"found {self.problem.n_items} items, expected at most {MOST_ITEMS}", field="items")
-        classes = _word_classes(self.problem)
+        by_owners = self.problem.words_by_owners().items()
+        classes = {owners: tuple(self.problem.words[word] for word in words) for owners, words in by_owners}
         object.__setattr__(self, "word_classes", ((), *classes.values()))
         object.__setattr__(self, "words", _word_chances(self.problem, classes))
         object.__setattr__(self, "gestures", _gesture_chances(self.problem, rings))
@@ -109,15 +109,6 @@ class Discrete:
         if angles[item] > threshold:
             return 0
         return 1 + item * self.rings + min(self.rings - 1, int(angles[item] / threshold * self.rings))
-
-
-def _word_classes(problem: Problem) -> dict[tuple[int, ...], tuple[str, ...]]:
-    """Return the words of the scene by the items that own them."""
-    tables, classes = problem.tables, defaultdict(list)
-    for index, word in enumerate(problem.words):
-        owners = tables.word_items[tables.word_starts[index] : tables.word_starts[index + 1]]
-        classes[tuple(sorted(owners.tolist()))].append(word)
-    return {owners: tuple(words) for owners, words in classes.items()}
 
 
 def _word_chances(problem: Problem, classes: dict[tuple[int, ...], tuple[str, ...]]) -> Vector:

@@ -82,6 +82,14 @@ class Problem:
         """How many items there are, |I|."""
         return len(self.scene.items)
 
+    def words_by_owners(self) -> dict[tuple[int, ...], list[int]]:
+        """Return the words, by index, of each set of items that own them: words of the same owners say the same."""
+        found: dict[tuple[int, ...], list[int]] = {}
+        for word in range(len(self.words)):
+            owners = self.tables.word_items[self.tables.word_starts[word] : self.tables.word_starts[word + 1]]
+            found.setdefault(tuple(owners.tolist()), []).append(word)
+        return found
+
     def _tables(self) -> Tables:
         model, rewards, items = self.model, self.rewards, self.scene.items
         sizes = np.array([len(item.vocabulary) for item in items])

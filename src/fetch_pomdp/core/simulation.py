@@ -81,9 +81,8 @@ def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Su
     for begin in range(0, episodes, side):
         numbers = np.arange(begin, min(begin + side, episodes))
         streams = people.integers(2**63, size=len(numbers), dtype=np.uint64)
-        played = _played(
-            problem, planner, Interactions.begin(numbers % problem.n_items, streams, problem.n_items), robot
-        )
+        begun = Interactions.begin(numbers % problem.n_items, streams, problem.n_items)
+        played = played_out(problem, planner, begun, robot)
         totals += [
             played.earned.sum(),
             (played.earned**2).sum(),
@@ -103,8 +102,8 @@ def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Su
     )
 
 
-def _played(problem: Problem, planner: Planner, interactions: Interactions, robot: Generator) -> Interactions:
-    """Play interactions to their ends."""
+def played_out(problem: Problem, planner: Planner, interactions: Interactions, robot: Generator) -> Interactions:
+    """Play interactions to their ends, and return them."""
     active = np.arange(len(interactions.desired))
     for _ in range(MOST_STEPS):
         actions = decide_many(planner, problem, interactions.beliefs[active], interactions.asked[active], rng=robot)

@@ -13,18 +13,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.bounding.oracle import Oracle, ceiling
-from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, inlined, lean, uniform
+from fetch_pomdp.core.compiled import GOLDEN, Integers, RandomState, Vector, compiled, inlined, lean, mixed, uniform
 from fetch_pomdp.core.planners.afterstate import (
     ValueTable,
-    answered_value,
-    classes_of,
     kind_of,
     node_value,
-    with_other,
 )
+from fetch_pomdp.core.planners.ahead import one_pass
 from fetch_pomdp.core.planners.kernels import NO, NOBODY, YES, answered, hear, largest, normalise, select_answer
 from fetch_pomdp.core.planners.leaf import leading
-from fetch_pomdp.core.planners.outlook import DistinctWords, look, outlook_size, smoothed_mass
+from fetch_pomdp.core.planners.outlook import DistinctWords, smoothed_mass
 from fetch_pomdp.core.planners.pairs import pair_class
 from fetch_pomdp.core.problem import Tables
 
@@ -160,17 +158,19 @@ def acted(
     size = len(beliefs) * (count + 1)
     whole = np.empty((3, size), dtype=np.int64)
     children = Children(whole[0], whole[1], whole[2], np.empty(size, dtype=np.uint64), np.empty(size))
-    heard, expected, state, made = np.empty(count), np.empty(count + 1), np.empty(1, dtype=np.uint64), 0
+    heard, values, state, made = np.empty((3, count + 1)), np.empty(count + 1), np.empty(1, dtype=np.uint64), 0
+    places = np.empty(count, dtype=np.int64)
     for node in range(len(beliefs)):
         state[0] = scenario.seeds[step]
-        estimate(beliefs[node], asked[node], heard, expected, state, fixed, tables)
+        asks = places[: worth_asking(beliefs[node], asked[node], fixed.alike, places)]
+        expected = values[: len(asks) + 1]
+        one_pass(beliefs[node], asked[node], asks, fixed.table, fixed.distinct, state, heard[0, :count], expected,
+                 heard[1], heard[2], tables)  # fmt: skip
         sofar = sums[node] - control(beliefs[node], asked[node], fixed.table, tables)
-        for action in range(count + 1):
-            about, rate, reward = action, tables.p_l, tables.point
-            if action == count:
-                about, rate, reward = asked[node], tables.p_again, tables.wait
-            elif repeated(action, beliefs[node], asked[node], fixed.alike):
-                continue
+        for action in range(len(expected)):
+            about, rate, reward = asked[node], tables.p_again, tables.wait
+            if action < len(asks):
+                about, rate, reward = asks[action], tables.p_l, tables.point
             answer = select_answer(scenario.desired, about, rate, scenario.speaks[step], scenario.means[step], tables)
             children.parents[made], children.asked[made], children.answers[made] = node, about, answer
             children.keys[made] = key_after(keys[node], asked[node], about, answer)
@@ -183,25 +183,14 @@ def acted(
 
 
 @lean
-def estimate(
-    belief: Vector, asked: int, heard: Vector, expected: Vector, state: RandomState, fixed: Relaxation, tables: Tables
-) -> None:
-    """Fill in unbiased estimates of E V^ after a question about each item, and last after a wait, (n + 1,)."""
-    count, table = len(belief), fixed.table
-    for action in range(count + 1):
-        expected[action] = 0.0
-    smoothed = smoothed_mass(belief, tables)
-    for number in range(outlook_size(fixed.distinct, tables)):
-        chance = look(number, belief, smoothed, heard, state, fixed.distinct, tables)
-        top = leading(heard)
-        classes = classes_of(top, table.breaks, tables)
-        for action in range(count + 1):
-            about, rate = (asked, tables.p_again) if action == count else (action, tables.p_l)
-            if action < count and repeated(action, belief, asked, fixed.alike):
-                continue
-            pairs = with_other(classes, about, top, table.breaks, tables)
-            own = heard[about] if about != NOBODY else 0.0
-            expected[action] += chance * answered_value(table.values, pairs, top, about, own, rate, tables)
+def worth_asking(belief: Vector, asked: int, alike: Integers, asks: Integers) -> int:
+    """Fill in the items that a best policy may need to ask about; return how many."""
+    count = 0
+    for item in range(len(belief)):
+        if not repeated(item, belief, asked, alike):
+            asks[count] = item
+            count += 1
+    return count
 
 
 @inlined
@@ -218,10 +207,7 @@ def repeated(item: int, belief: Vector, asked: int, alike: Integers) -> bool:
 @inlined
 def scrambled(number: int) -> Any:
     """Return 64 bits that look random, of a number from -2: SplitMix64."""
-    z = np.uint64(number + 2) * np.uint64(0x9E3779B97F4A7C15)
-    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    return z ^ (z >> np.uint64(31))
+    return mixed(np.uint64(number + 2) * np.uint64(GOLDEN))
 
 
 @inlined

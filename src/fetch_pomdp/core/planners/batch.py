@@ -47,6 +47,11 @@ def decide_many(planner: Planner, problem: Problem, beliefs: Vector, asked: Inte
         raise PlannerError(found, field="asked")
     if isinstance(planner, BatchPlanner):
         return planner.decide_many(problem, np.ascontiguousarray(beliefs), asked.astype(np.int64), rng=rng)
+    return one_by_one(planner, problem, beliefs, asked, rng)
+
+
+def one_by_one(planner: Planner, problem: Problem, beliefs: Vector, asked: Integers, rng: Generator) -> Integers:
+    """Return an action for every belief, (k,), decided in their order."""
     codes = [
         code_of(planner.decide(problem, Belief(belief), None if about < 0 else int(about), rng=rng).action, problem)
         for belief, about in zip(beliefs, asked, strict=True)

@@ -19,10 +19,9 @@ from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.planners.afterstate import ValueTable
 from fetch_pomdp.core.planners.ahead import Ahead, add_passes, candidates, chosen, step_ahead, step_ahead_many
 from fetch_pomdp.core.planners.base import Decision, pick_values, whole_number
-from fetch_pomdp.core.planners.batch import action_of, code_of, on_all_cores
+from fetch_pomdp.core.planners.batch import action_of, on_all_cores, one_by_one
 from fetch_pomdp.core.planners.exact import ExactAnswers
 from fetch_pomdp.core.planners.fitting import fitted
-from fetch_pomdp.core.planners.kernels import NOBODY
 from fetch_pomdp.core.planners.outlook import DistinctWords, distinct_words
 from fetch_pomdp.core.planners.root import checked_asked
 from fetch_pomdp.core.problem import Problem
@@ -82,10 +81,7 @@ class FittedValue:
 
     def prepare(self, problem: Problem) -> None:
         """Solve the problem and load what is compiled now, so that the first decision is as fast as the others."""
-        flat = Belief.uniform(problem.n_items)
-        self.decide(problem, flat, None, rng=np.random.default_rng(0))
-        if problem.n_items <= MOST_FITTED and self.budget_ms is not None:
-            self._refined(problem, flat.probabilities, NOBODY, 0, ends=0.0)
+        self.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
 
     def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
         """Choose the action with the highest value."""
@@ -95,15 +91,15 @@ class FittedValue:
         probabilities = belief.probabilities
         about = checked_asked(probabilities, asked, problem)
         table, distinct = solution(problem, self)
-        seed, passes = int(rng.random() * 2.0**53), self.passes
-        found = step_ahead(probabilities, about, table, distinct, seed, passes, problem.tables)
-        pick = pick_values(probabilities, problem)
-        if self.budget_ms is not None and is_close(found, pick):
+        seed, passes = int(rng.random() * 2.0**53), None
+        if self.budget_ms is None:
+            found = step_ahead(probabilities, about, table, distinct, seed, self.passes, problem.tables)
+        else:
             ends = started + CAUTION * self.budget_ms / 1e3
             found, passes = self._refined(problem, probabilities, about, seed, ends)
         wait, point, wait_error, errors, action = found
-        timed = None if self.budget_ms is None else passes
-        return Decision(action_of(action, problem), wait, point, pick, wait_error, errors, passes=timed)
+        pick = pick_values(probabilities, problem)
+        return Decision(action_of(action, problem), wait, point, pick, wait_error, errors, passes=passes)
 
     def _refined(
         self, problem: Problem, probabilities: Vector, about: int, seed: int, ends: float
@@ -126,12 +122,9 @@ class FittedValue:
 
     def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:
         """Choose an action for every belief, on all cores and with no budget; see `batch.decide_many`."""
-        actions = np.empty(len(beliefs), dtype=np.int64)
         if problem.n_items > MOST_FITTED:
-            for index, belief in enumerate(beliefs):
-                about = None if asked[index] == NOBODY else int(asked[index])
-                actions[index] = code_of(self.decide(problem, Belief(belief), about, rng=rng).action, problem)
-            return actions
+            return one_by_one(self, problem, beliefs, asked, rng)
+        actions = np.empty(len(beliefs), dtype=np.int64)
         table, distinct = solution(problem, self)
         seeds = (rng.random(len(beliefs)) * 2.0**53).astype(np.uint64)
 

@@ -68,13 +68,10 @@ def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> 
     breaks = class_breaks(close[: pairs_met(start, close, random_state(seed), tables)])
     table = ValueTable(np.repeat(start.values, len(breaks) + 1, axis=0), breaks)
     smooth = smoothness()
-    nodes, size = np.zeros(count, NODE), 1 + outlook_size(distinct, tables)
-    nexts = np.zeros((count, size - 1), NEXT)
+    nodes, nexts = np.zeros(count, NODE), np.zeros((count, outlook_size(distinct, tables)), NEXT)
     for number in range(ROUNDS):
         meet(table, nodes, nexts, random_state(seed + 1 + number), distinct, tables)
-        lower = np.repeat(smooth[None], (len(breaks) + 1) * KINDS, axis=0).reshape(
-            len(breaks) + 1, KINDS, *smooth.shape
-        )
+        lower = np.tile(smooth, (len(breaks) + 1, KINDS, 1, 1))
         normal_matrices(nodes, lower)
         for _ in range(SWEEPS):
             sweep(table, nodes, nexts, lower, tables)

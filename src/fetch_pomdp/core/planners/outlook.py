@@ -31,14 +31,9 @@ class DistinctWords(NamedTuple):
 
 def distinct_words(problem: Problem, rays: int) -> DistinctWords:
     """Return the words of a problem that differ in their owners."""
-    starts, items = problem.tables.word_starts, problem.tables.word_items
-    first: dict[bytes, int] = {}
-    count: dict[bytes, int] = {}
-    for word in range(len(problem.words)):
-        owners = items[starts[word] : starts[word + 1]].tobytes()
-        first.setdefault(owners, word)
-        count[owners] = count.get(owners, 0) + 1
-    return DistinctWords(np.array(list(first.values()), dtype=np.int64), np.array(list(count.values()), float), rays)
+    alike = problem.words_by_owners().values()
+    words = np.array([members[0] for members in alike], dtype=np.int64)
+    return DistinctWords(words, np.array([len(members) for members in alike], dtype=np.float64), rays)
 
 
 @inlined
