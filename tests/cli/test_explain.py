@@ -19,15 +19,8 @@ from fetch_pomdp.cli.main import main
 from fetch_pomdp.core.action import Point
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.planners.fixed import AlwaysAsk
+from tests.cli.conftest import ASKED
 from tests.tables import table
-
-ASKED = (
-    {"scene": "ambiguous"},
-    {"action": "wait"},
-    {"observation": {"utterance": "hand me the marker"}},
-    {"action": "point", "item": "marker-1"},
-    {"observation": {"utterance": "no"}},
-)
 
 
 def run(monkeypatch: pytest.MonkeyPatch, *arguments: object, typed: str = "") -> None:

@@ -3,41 +3,16 @@
 from __future__ import annotations
 
 import json
-import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from fetch_pomdp.cli.main import main
-
-Run = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    def call(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["fetch-pomdp", *map(str, arguments)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        captured = capsys.readouterr()
-        return int(ended.value.code or 0), captured.out, captured.err
-
-    return call
+from tests.cli.conftest import ASKED, Run
 
 
 def events(path: Path, *lines: object) -> Path:
     path.write_text("\n".join(line if isinstance(line, str) else json.dumps(line) for line in lines) + "\n")
     return path
-
-
-ASKED = (
-    {"scene": "ambiguous"},
-    {"action": "wait"},
-    {"observation": {"utterance": "hand me the marker"}},
-    {"action": "point", "item": "marker-1"},
-    {"observation": {"utterance": "no"}},
-)
 
 
 def test_filter_prints_a_belief_for_each_observation(run: Run, tmp_path: Path) -> None:
