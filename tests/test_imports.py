@@ -24,7 +24,8 @@ ALLOWED: dict[str, tuple[set[str], set[str] | None]] = {
     "core": (GROUND | {"checks", "documents", "core"}, CORE_LIBRARIES),
     "files": (GROUND | {"checks", "documents", "core", "files"}, CORE_LIBRARIES),
     "adapters": (GROUND | {"checks", "documents", "core", "files", "adapters"}, CORE_LIBRARIES),
-    "cli": (GROUND | {"checks", "documents", "core", "files", "adapters", "cli"}, None),
+    "study": (GROUND | {"checks", "documents", "core", "files", "study"}, CORE_LIBRARIES),
+    "cli": (GROUND | {"checks", "documents", "core", "files", "adapters", "study", "cli"}, None),
     "__init__": (GROUND | {"core"}, set()),
     "__main__": ({"cli"}, set()),
 }
