@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
+import numpy.typing as npt
 from numpy.random import Generator
 
 from fetch_pomdp.checks import shown
@@ -73,6 +74,12 @@ def pick_values(belief: Vector, problem: Problem) -> Vector:
     """Return the expected reward of picking each item, (n_items,)."""
     rewards = problem.rewards
     return (rewards.pick_correct - rewards.pick_wrong) * belief + rewards.pick_wrong
+
+
+def is_uniform(beliefs: Vector) -> npt.NDArray[np.bool_]:
+    """Return whether nothing tells the items of a belief apart, (...); beliefs: (..., n_items). Never of one item."""
+    same = np.ptp(beliefs, axis=-1) < 1e-9
+    return np.asarray(same & (beliefs.shape[-1] > 1))
 
 
 def best_action(wait: float, point: Vector, pick: Vector) -> Action:

@@ -8,6 +8,11 @@ from typing import Any
 
 from fetch_pomdp.checks import known
 from fetch_pomdp.core.planners.base import Planner
+from fetch_pomdp.core.planners.baselines.chai import ChaiRule
+from fetch_pomdp.core.planners.baselines.doshi_roy import DoshiRoy
+from fetch_pomdp.core.planners.baselines.information_gain import InformationGain
+from fetch_pomdp.core.planners.baselines.one_shot import OneShot
+from fetch_pomdp.core.planners.baselines.williams_young import WilliamsYoung
 from fetch_pomdp.core.planners.exact import ExactAnswers
 from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
@@ -23,6 +28,11 @@ PLANNERS: Mapping[str, Callable[..., Planner]] = {
     "threshold": Threshold,
     "never": NeverAsk,
     "always": AlwaysAsk,
+    "chai": ChaiRule,
+    "williams-young": WilliamsYoung,
+    "doshi-roy": DoshiRoy,
+    "information-gain": InformationGain,
+    "one-shot": OneShot,
 }
 
 

@@ -10,7 +10,15 @@ from numpy.random import Generator
 from fetch_pomdp import checks
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, pick_values, unvalued, whole_number
+from fetch_pomdp.core.planners.base import (
+    MOST_DEPTH,
+    MOST_WIDTH,
+    Decision,
+    is_uniform,
+    pick_values,
+    unvalued,
+    whole_number,
+)
 from fetch_pomdp.core.planners.exact import plan_exact
 from fetch_pomdp.core.planners.kernels import Search
 from fetch_pomdp.core.planners.root import last_action, searched
@@ -59,7 +67,7 @@ class AlwaysAsk:
         probabilities = belief.probabilities
         item = int(probabilities.argmax())
         action: Action = Point(item)
-        if len(probabilities) > 1 and np.ptp(probabilities) < 1e-9:
+        if is_uniform(probabilities):
             action = Wait()
         elif asked is not None and probabilities[item] >= self.confidence:
             action = Pick(item)
