@@ -72,5 +72,9 @@ class ExportError(InputError):
     """A file for other planners that cannot be written: too large, there already, or of no known format."""
 
 
+class StudyError(InputError):
+    """A study's configuration, table or log cannot be used."""
+
+
 class MissingExtraError(FetchPomdpError, ImportError):
     """An optional library is not installed; the message is the line that installs it."""

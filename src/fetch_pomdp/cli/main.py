@@ -11,6 +11,7 @@ from fetch_pomdp.cli.doors import export_scene
 from fetch_pomdp.cli.gap import gap
 from fetch_pomdp.cli.interact import fetch
 from fetch_pomdp.cli.offline import decide, filter_events, simulate
+from fetch_pomdp.cli.robocup import robocup
 from fetch_pomdp.errors import FetchPomdpError
 
 app = typer.Typer(
@@ -27,6 +28,7 @@ app.command()(decide)
 app.command()(simulate)
 app.command("export")(export_scene)
 app.command()(gap)
+app.command()(robocup)
 
 
 def main() -> None:

@@ -1,0 +1,1 @@
+"""RoboCup@Home's "Hand Me That": its rules and score, and games with simulated operators."""
