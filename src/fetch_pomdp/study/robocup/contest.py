@@ -8,20 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.random import Generator
 
-from fetch_pomdp import checks
 from fetch_pomdp.core.action import Action, Pick, Point
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Planner
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import MOST_STEPS
-from fetch_pomdp.errors import StudyError
 from fetch_pomdp.study.robocup.operators import Guests, Operator, Operators, group_scene
-from fetch_pomdp.study.robocup.rules import GroupRecord, Rules, game_score
+from fetch_pomdp.study.robocup.rules import GroupRecord, Rules, game_score, whole
 
 DIFFERENT_GROUPS = 40
 
@@ -79,7 +77,7 @@ class Standing:
 class Contest:
     """Games that planners are compared by: each has the same groups, wishes and operators for every planner.
 
-    Raises StudyError for a number of games that is none.
+    Raises StudyError for a number of games, or a seed, that is none.
 
     Choice: the groups of all games are drawn from a few, so that a planner that solves each scene first need not solve
     thousands. The standard errors are those of games with these groups.
@@ -87,11 +85,12 @@ class Contest:
 
     games: int = 200
     seed: int = 0
-    rules: Rules = Rules()
-    operators: Operators = Guests()
+    rules: Rules = field(default_factory=Rules)
+    operators: Operators = field(default_factory=Guests)
 
     def __post_init__(self) -> None:
-        checks.within(self.games, 1, 1e6, "games", "a number from 1 to a million", StudyError)
+        whole(self.games, 1, 1_000_000, "games")
+        whole(self.seed, 0, 2**63 - 1, "seed")
 
     def courses(self) -> Iterator[list[Problem]]:
         """Yield the groups of each game."""

@@ -13,8 +13,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fetch_pomdp import checks
+from fetch_pomdp.checks import shown
 from fetch_pomdp.core.model import Rewards
 from fetch_pomdp.errors import StudyError
+
+MOST_POINTS = 1_000_000
+
+
+def whole(value: object, least: int, most: int, field: str) -> None:
+    """Check a whole number. Raises StudyError for one that is out of range."""
+    if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+        raise StudyError(f"found {shown(value)}, expected a whole number from {least} to {most}", field=field)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,18 +46,17 @@ class Rules:
     last_guess: int = 4  # a right guess after that many earns nothing
 
     def __post_init__(self) -> None:
-        for low, high, least in (
-            ("least_items", "most_items", 1),
-            ("least_gap", "most_gap", 1e-3),
-            ("least_distance", "most_distance", 1e-2),
-        ):
-            bottom, top = getattr(self, low), getattr(self, high)
-            checks.within(bottom, least, 100.0, low, f"a number from {least} to 100", StudyError)
-            checks.within(top, bottom, 100.0, high, f"a number from {low} to 100", StudyError)
+        whole(self.groups, 1, 1000, "groups")
+        whole(self.least_items, 1, 100, "least_items")
+        whole(self.most_items, self.least_items, 100, "most_items")
+        for least, most in (("least_gap", "most_gap"), ("least_distance", "most_distance")):
+            low = checks.within(getattr(self, least), 1e-3, 100.0, least, "a length from 0.001 to 100 m", StudyError)
+            checks.within(getattr(self, most), low, 100.0, most, f"a length from {low} to 100 m", StudyError)
+        whole(self.right, 1, MOST_POINTS, "right")
         for name in ("question", "description", "wrong"):
-            checks.within(getattr(self, name), -1e6, 0.0, name, "points at most 0", StudyError)
-        checks.within(self.groups, 1, 1000, "groups", "a number from 1 to 1000", StudyError)
-        checks.within(self.right, 1, 1e6, "right", "points above 0", StudyError)
+            whole(getattr(self, name), -MOST_POINTS, 0, name)
+        for name in ("most_questions", "most_wrong", "last_guess"):
+            whole(getattr(self, name), 0, 100, name)
 
     def earned(self, guess: int) -> int:
         """Return the points of a right guess that is the first, the second, ..."""
