@@ -15,6 +15,11 @@ from hypothesis import strategies as st
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, Planner, best_action
+from fetch_pomdp.core.planners.baselines.chai import ChaiRule
+from fetch_pomdp.core.planners.baselines.doshi_roy import DoshiRoy
+from fetch_pomdp.core.planners.baselines.information_gain import InformationGain
+from fetch_pomdp.core.planners.baselines.one_shot import OneShot
+from fetch_pomdp.core.planners.baselines.williams_young import WilliamsYoung
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.planners.exact import ExactAnswers
 from fetch_pomdp.core.planners.fitted import FittedValue
@@ -34,6 +39,9 @@ LEADING = [0.02, 0.02, 0.55, 0.35, 0.03, 0.03]
 UNEVEN = [0.05, 0.1, 0.35, 0.4, 0.06, 0.04]
 
 SEARCHES: list[Callable[..., Planner]] = [ExactAnswers, SparseSampling, NeverAsk]
+# Planners that follow a rule and value picks alone; planners that ask first whatever they believe.
+RULED = (AlwaysAsk, Threshold, ChaiRule, InformationGain, OneShot)
+OPENS = (AlwaysAsk, WilliamsYoung)
 
 
 @pytest.fixture(params=sorted(PLANNERS))
@@ -76,7 +84,7 @@ def test_decisions_are_sound(planner: Planner, problem: Problem, asked: int | No
     decision = decide(planner, problem, belief, asked)
     assert_sound(decision, 6)
     assert decision.pick == pytest.approx(22.5 * np.array(belief) - 12.5, abs=1e-9)
-    if not isinstance(planner, AlwaysAsk | Threshold):
+    if not isinstance(planner, RULED + OPENS):
         values = [decision.wait, *decision.point, *decision.pick]
         assert decision.value == np.nanmax(values)
 
@@ -98,7 +106,7 @@ def test_a_table_with_one_item(planner: Planner, asked: int | None) -> None:
     decision = decide(planner, table([["cup"]]), [1.0], asked)
     assert_sound(decision, 1)
     assert decision.pick[0] == pytest.approx(10.0)
-    if not isinstance(planner, AlwaysAsk):
+    if not isinstance(planner, OPENS):
         assert decision.action == Pick(0)
 
 
@@ -107,7 +115,7 @@ def test_a_table_with_one_item(planner: Planner, asked: int | None) -> None:
 def test_two_items(planner: Planner, asked: int | None, belief: list[float]) -> None:
     decision = decide(planner, table([["cup"], ["mug"]]), belief, asked)
     assert_sound(decision, 2)
-    if not isinstance(planner, NeverAsk | AlwaysAsk | Threshold):
+    if not isinstance(planner, (NeverAsk, *RULED, *OPENS)):
         assert np.isfinite([decision.wait, *decision.point]).all()
         assert max(decision.wait + 1, *(decision.point + 6)) <= 10 + 1e-9
 
@@ -131,6 +139,11 @@ def test_an_item_that_is_certain_is_picked(planner: Planner, item: int) -> None:
         AlwaysAsk(),
         FittedValue(),
         Threshold(),
+        ChaiRule(),
+        WilliamsYoung(),
+        DoshiRoy(),
+        InformationGain(),
+        OneShot(),
     ],
 )
 def test_permuting_twins_permutes_values(planner: Planner, order: list[int]) -> None:
@@ -282,6 +295,11 @@ def test_the_default_planner_is_ours() -> None:
         ("fitted", {"budget_ms": -1}, "budget_ms: found -1, expected a time from 0 to 1e6 ms, or none"),
         ("threshold", {"pick": -0.1}, "pick: found -0.1, expected a belief from 0, or a limit to 2"),
         ("always", {"confidence": math.nan}, "confidence: found nan"),
+        ("chai", {"ratio": 0}, "ratio: found 0, expected a share of the largest belief, above 0 and at most 1"),
+        ("williams-young", {"depth": 0}, f"depth: found 0, expected a whole number from 1 to {MOST_DEPTH}"),
+        ("doshi-roy", {"depth": 1}, f"depth: found 1, expected a whole number from 2 to {MOST_DEPTH}"),
+        ("information-gain", {"worth": -1}, "worth: found -1, expected a number from 0 to 1000"),
+        ("one-shot", {"confidence": 2}, "confidence: found 2, expected a probability from 0 to 1"),
     ],
 )
 def test_bad_names_and_parameters(name: str, parameters: dict[str, Any], message: str) -> None:

@@ -63,7 +63,8 @@ class Rules:
         return self.right + self.wrong * min(guess - 1, self.most_wrong) if guess <= self.last_guess else 0
 
     def rewards(self, wait: float = -5.0) -> Rewards:
-        """Return the prices of a group for a planner, to whom a pick is the end.
+        """Return the prices of a group for a planner, to whom a pick is the end. Raises ModelError where a wrong guess
+        costs nothing.
 
         Choice: a wrong pick is worth what later right guesses earn on average, (300 + 100 + 100) / 3 points: the robot
         goes on, so its price is the difference. With -200 as the price planners ask, and score less.
