@@ -67,7 +67,8 @@ class Rules:
         costs nothing.
 
         Choice: a wrong pick is worth what later right guesses earn on average, (300 + 100 + 100) / 3 points: the robot
-        goes on, so its price is the difference. With -200 as the price planners ask, and score less.
+        goes on, so its price is the difference. Told that it earns -200, planners that ask do so five to ten times as
+        often and score less (docs/robocup.md).
 
         Choice: a wait costs 5 points. The rules give time no price until it has run out; ten minutes of waits of a
         second are then somewhat dearer than five right guesses.
