@@ -13,12 +13,12 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import angles
-from fetch_pomdp.core.interaction import Timing, interact, median_ray, pointing_arm
+from fetch_pomdp.core.interaction import Timing, interact, median_ray, pointing_arms
 from fetch_pomdp.core.planners.base import Decision, pick_values, unvalued
 from fetch_pomdp.core.ports import Frame, Outcome, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item
-from fetch_pomdp.errors import ModelError
+from fetch_pomdp.errors import ModelError, ObservationError
 
 HEAD = (0.0, 0.0, 1.6)
 
@@ -240,10 +240,16 @@ def test_frames_that_do_not_point_do_not_count() -> None:
 def test_the_arm_that_points_best_counts_whichever_it_is() -> None:
     down, up = (0.2, 0.0, 0.9), towards(-0.225)
     for wrists in ((down, up), (up, down), (towards(-0.225, z=1.0), up), (up, towards(-0.225, z=1.0))):
-        ray = pointing_arm(frame(0, *wrists), PROBLEM)
-        assert ray is not None
-        assert ray.wrist == up
-    assert pointing_arm(Frame(0, HEAD, ()), PROBLEM) is None
+        heads, arms = pointing_arms([frame(0, *wrists)], PROBLEM)
+        assert heads.tolist() == [list(HEAD)]
+        assert arms.tolist() == [list(up)]
+    assert pointing_arms([Frame(0, HEAD, ())], PROBLEM)[0].shape == (0, 3)
+
+
+@pytest.mark.parametrize("wrist", [HEAD, (math.nan, 0.0, 0.0), (0.0, 2e6, 0.0)])
+def test_an_arm_that_is_no_ray_is_refused(wrist: tuple[float, float, float]) -> None:
+    with pytest.raises(ObservationError, match=r"^wrist: found"):
+        median_ray([frame(0, towards(0.0)), frame(0, wrist)], PROBLEM)
 
 
 def test_opposed_rays_that_cancel_are_no_gesture() -> None:

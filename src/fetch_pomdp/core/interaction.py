@@ -21,13 +21,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fetch_pomdp.checks import FARTHEST
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event, Observed
-from fetch_pomdp.core.gesture import Ray, angles
+from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.rays import nearest_angles
 from fetch_pomdp.core.simulation import MOST_STEPS
 from fetch_pomdp.core.words import RESPONSES, tokenize
 from fetch_pomdp.errors import ModelError
@@ -127,19 +130,37 @@ def median_ray(frames: Sequence[Frame], problem: Problem) -> Ray | None:
     Choice: in each frame the arm counts that is nearest in angle to an item, and the median is taken of each
     coordinate, of the heads and of the arms' unit directions.
     """
-    rays = [ray for frame in frames if (ray := pointing_arm(frame, problem)) is not None]
-    if not rays:
+    heads, wrists = pointing_arms(frames, problem)
+    if not len(heads):
         return None
-    heads = np.array([ray.head for ray in rays])
-    arms = np.array([ray.wrist for ray in rays]) - heads
+    arms = wrists - heads
     head = np.median(heads, axis=0)
     arm = np.median(arms / np.linalg.norm(arms, axis=1, keepdims=True), axis=0)
     return None if not arm.any() else Ray(tuple(head.tolist()), tuple((head + arm).tolist()))
 
 
-def pointing_arm(frame: Frame, problem: Problem) -> Ray | None:
-    """Return the ray of the arm that points at the table, or None (Section III-C-2)."""
-    rays = [Ray(frame.head, wrist) for wrist in frame.wrists]
-    nearest = [float(angles(ray, problem).min()) for ray in rays]
-    best = int(np.argmin(nearest)) if rays else 0
-    return rays[best] if rays and nearest[best] <= problem.model.gesture_threshold else None
+def pointing_arms(frames: Sequence[Frame], problem: Problem) -> tuple[Vector, Vector]:
+    """Return the head and wrist (m) of each arm that points at the table, (n, 3) each, at most one a frame.
+
+    Raises ObservationError for an arm that is no Ray.
+    """
+    arms = [(frame.head, wrist) for frame in frames for wrist in frame.wrists]
+    heads, wrists = np.array(arms, dtype=np.float64).reshape(-1, 2, 3).swapaxes(0, 1).copy()
+    if not _are_rays(heads, wrists):
+        for head, wrist in arms:
+            Ray(head, wrist)  # raises for the first that is none
+    nearest = nearest_angles(heads, wrists, problem.positions).tolist()
+    best, first = [], 0
+    for frame in frames:
+        after = first + len(frame.wrists)
+        if after > first:
+            best.append(min(range(first, after), key=nearest.__getitem__))
+        first = after
+    kept = [arm for arm in best if nearest[arm] <= problem.model.gesture_threshold]
+    return heads[kept], wrists[kept]
+
+
+def _are_rays(heads: Vector, wrists: Vector) -> bool:
+    arms = wrists - heads
+    near = max(np.abs(heads).max(initial=0.0), np.abs(wrists).max(initial=0.0)) <= FARTHEST
+    return bool(near and np.einsum("ij,ij->i", arms, arms).min(initial=1.0) > 1e-17)

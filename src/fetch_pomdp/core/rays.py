@@ -42,6 +42,15 @@ def angles_from(head: Vector, wrist: Vector, positions: Vector) -> Vector:
     return result
 
 
+@compiled
+def nearest_angles(heads: Vector, wrists: Vector, positions: Vector) -> Vector:
+    """Return the smallest of `angles_from` of each ray. (m, 3), (m, 3), (n, 3) m, n > 0; returns (m,)."""
+    result = np.empty(len(heads))
+    for ray in range(len(heads)):
+        result[ray] = angles_from(heads[ray], wrists[ray], positions).min()
+    return result
+
+
 @lean
 def turned(direction: Vector, angle: float, roll: float) -> tuple[float, float, float]:
     """Return the unit vector at `angle` (rad) from a unit `direction`, at `roll` (rad) around it."""

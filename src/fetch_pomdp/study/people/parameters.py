@@ -66,7 +66,7 @@ class People:
     begin_delay: float = _seconds(0.5)  # s after the countdown, a reaction to it; sets the phase to the robot's steps
     word_time: float = _duration(0.35)  # s a word: 170 words a minute, at the slow end of talk
     word_time_spread: float = _spread(0.15)  # log, persons: most within 130 and 230 words a minute
-    descriptors: tuple[float, ...] = (0.03, 0.42, 0.4, 0.15)  # chance of naming the item by 0, 1, 2 ... of its words
+    descriptors: tuple[float, ...] = (0.02, 0.28, 0.4, 0.3)  # chance of naming the item by 0, 1, 2 ... of its words
     p_name: float = _rate(0.9)  # chance that the item's first word is among them
     p_place: float = _rate(0.05)  # chance of "next to the <other item>", persons: "many" did (Section V)
     p_reword: float = _rate(0.5)  # chance that a repeated request is worded anew
