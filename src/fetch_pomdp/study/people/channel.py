@@ -10,35 +10,29 @@ from typing import Protocol
 from numpy.random import Generator
 
 from fetch_pomdp.core.ports import Word
-from fetch_pomdp.core.words import COURTESY, NEGATIVE, POSITIVE
+from fetch_pomdp.core.words import COURTESY, NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.study.people.grammar import chosen
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.people.traits import Mood, shifted
 
 # In the order of a list: a set's order of words changes from run to run.
 INSERTED = (*sorted(COURTESY), *POSITIVE, *NEGATIVE)
-SHORT = 2  # words, of an utterance that is easily lost
 SHORTEST = 0.01  # s, an inserted word
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Utterance:
-    """What a person says at once, and where from."""
-
-    words: tuple[Word, ...]  # as they are said, in order, on the clock of the stream
-    distance: float  # m, from the person to the items
-    voice: int
-
-
 class Channel(Protocol):
-    """From an utterance to what a recogniser hears of it.
+    """From what a person says at once to what a recogniser hears of it.
 
-    Heard words are in order and end within the utterance. A channel keeps nothing from one utterance to the next but
-    what it has computed before, so that the same random numbers give the same words.
+    A channel keeps nothing from one utterance to the next but what it has computed before, so that the same random
+    numbers give the same words.
     """
 
-    def hear(self, utterance: Utterance, rng: Generator) -> Sequence[Word]:
-        """Return the words heard, none if the utterance was missed."""
+    def hear(self, said: Sequence[Word], *, distance: float, voice: int, rng: Generator) -> Sequence[Word]:
+        """Return the words heard, in order and none before the first word said; none if all was missed.
+
+        said: one word or more, in order, on the clock of the stream. distance: m, from the person to the items.
+        voice: a number that is the person's own.
+        """
         ...
 
 
@@ -54,13 +48,13 @@ class MistakenWords:
     mood: Mood
     scene_words: tuple[str, ...]
 
-    def hear(self, utterance: Utterance, rng: Generator) -> Sequence[Word]:
+    def hear(self, said: Sequence[Word], *, distance: float, voice: int, rng: Generator) -> Sequence[Word]:  # noqa: ARG002
         """Return the words heard; see Channel."""
-        missed = rng.random() < miss_chance(self.mood.p_miss, utterance.distance, self.people.miss_per_doubling)
-        short = len(utterance.words) <= SHORT
-        if missed or (short and rng.random() < self.mood.p_lost):
+        answers = any(word.text in RESPONSES for word in said)
+        at_one_metre = self.mood.p_lost if answers else self.mood.p_miss
+        if rng.random() < miss_chance(at_one_metre, distance, self.people.miss_per_doubling):
             return ()
-        return tuple(heard for word in utterance.words for heard in self._heard(word, rng))
+        return tuple(heard for word in said for heard in self._heard(word, rng))
 
     def _heard(self, word: Word, rng: Generator) -> Iterator[Word]:
         people = self.people

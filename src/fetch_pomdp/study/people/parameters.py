@@ -78,14 +78,14 @@ class People:
 
     # Pointing, seen at 30 frames a second.
     p_point: float = _rate(0.96)  # chance to point with a request, persons (fit)
-    p_point_again: float = _rate(0.5)  # chance to point while denying
+    p_point_again: float = _rate(0.8)  # chance to point while denying
     point_delay: float = _seconds(0.27)  # s, from the first word until the arm moves (fit)
     point_rise: float = _seconds(0.3)  # s, from rest to the item: frames of it sweep over the table
     point_time: float = _duration(1.56)  # s that the arm is held (fit)
-    bias: float = _angle(0.018)  # rad, each axis: constant of a person (fit: 0.026 with the next together)
-    bias_episode: float = _angle(0.018)  # rad, each axis: anew at each pointing
-    jitter: float = _angle(0.035)  # rad, each axis: moves while the arm is held (fit: 0.042 with the tracker's)
-    jitter_time: float = _duration(0.5)  # s, over which the jitter is correlated (fit: 1.9 frames/s count as different)
+    bias: float = _angle(0.012)  # rad, each axis: constant of a person; the errors together put as many pointings
+    bias_episode: float = _angle(0.008)  # nearer the wrong one of two items 15 cm apart as the fit's; anew each time
+    jitter: float = _angle(0.03)  # rad, each axis: moves while the arm is held (fit: 0.042 with the tracker's)
+    jitter_time: float = _duration(0.3)  # s, over which the jitter is correlated (fit: 1.9 frames/s count as different)
     tracker_noise: float = _in(0.0, 0.1, "a noise from 0 to 0.1 per m", 0.0014)  # m at 1 m, of depth, grows with its
     # square; random error of a Kinect: Khoshelham and Elberink 2012
     reach: float = _in(0.1, 2.0, "a length from 0.1 to 2 m", 0.65)  # m, from head to wrist
@@ -99,7 +99,7 @@ class People:
     answer_delay_spread: float = _spread(0.3)  # log, persons
     p_late: float = _rate(0.05)  # chance of an answer that takes `late_delay` more
     late_delay: float = _seconds(1.5)  # s
-    p_elaborate: float = _rate(0.5)  # chance to say more than no to a wrong item: "no the other one", "no the bowl"
+    p_elaborate: float = _rate(0.6)  # chance to say more than no to a wrong item: "no the other one", "no the bowl"
     p_answer_again: float = _rate(0.7)  # chance that patience lost after a question repeats the answer, not the request
     contrast: float = _in(0.0, 20.0, "a weight from 0 to 20", 1.0)  # of words that the item asked about lacks: 0 any
     # word, 1 the literal listener's odds, more the implicature speaker (Frank and Goodman 2012)
@@ -111,12 +111,12 @@ class People:
     correct_delay: float = _seconds(1.2)  # s after the wrong answer
 
     # What is heard.
-    p_miss: float = _rate(0.09)  # chance that an utterance is missed as a whole at 1 m, persons (fit: .13 and .25 at
-    # the two layouts' 1.49 m and 3.31 m from head to items)
-    miss_per_doubling: float = _in(0.0, 5.0, "a slope from 0 to 5", 0.7)  # logit, a doubling of distance: 6 dB less
+    p_miss: float = _rate(0.09)  # chance that a request is missed as a whole at 1 m, persons (fit: .13 and .25 at the
+    # two layouts' 1.49 m and 3.31 m from head to items)
     miss_correlation: float = _rate(0.0)  # within a trial
-    p_lost: float = _rate(0.035)  # chance that one or two words are missed beyond that, persons (fit: lost answers)
+    p_lost: float = _rate(0.025)  # chance that an answer is missed at 1 m, persons: said when it is listened for (fit)
     lost_correlation: float = _rate(0.2)  # within a trial
+    miss_per_doubling: float = _in(0.0, 5.0, "a slope from 0 to 5", 0.7)  # logit of both, a doubling of distance: -6 dB
     latency: float = _seconds(0.5)  # s from the end of an utterance to its words: the silence that ends it
     p_substitute: float = _rate(0.05)  # a word of the scene heard as another word of the scene (fit)
     p_delete: float = _rate(0.03)  # a word not heard (5 in 100 words go wrong with clear voices in 20 dB)

@@ -17,7 +17,7 @@ from fetch_pomdp.core.ports import Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.study.clock import Clock
 from fetch_pomdp.study.people import grammar, pointing
-from fetch_pomdp.study.people.channel import Channel, MistakenWords, Utterance
+from fetch_pomdp.study.people.channel import Channel, MistakenWords
 from fetch_pomdp.study.people.grammar import Words
 from fetch_pomdp.study.people.traits import Traits, draw_mood, log_normal
 
@@ -163,12 +163,11 @@ class Person:
 
     def _say(self, words: Words, time: float) -> None:
         """Say words from a time (s) on; if the robot does nothing for long after them, ask again."""
-        step = self._traits.word_time
+        traits, step = self._traits, self._traits.word_time
         said = tuple(Word(word, time + k * step, time + (k + 1) * step) for k, word in enumerate(words))
-        utterance = Utterance(words=said, distance=self._distance, voice=self._traits.voice)
-        heard = tuple(self._channel.hear(utterance, self._rng))
+        heard = tuple(self._channel.hear(said, distance=self._distance, voice=traits.voice, rng=self._rng))
         self._speaks_until = max(word.end for word in (*said, *heard))
-        given = self._speaks_until + self._traits.people.latency
+        given = self._speaks_until + traits.people.latency
         self._heard.extend((given, word) for word in heard)
         self._lose_patience_after(self._speaks_until)
 

@@ -28,7 +28,7 @@ class Traits:
     p_answer: float
     p_flip: float
     p_miss: float  # at 1 m
-    p_lost: float
+    p_lost: float  # at 1 m
     voice: int  # which of the voices of a channel that speaks
 
 
@@ -38,7 +38,7 @@ class Mood:
 
     p_flip: float
     p_miss: float  # at 1 m
-    p_lost: float
+    p_lost: float  # at 1 m
     reading: tuple[float, float]  # rad, to the right and up: how far off the robot's arm is always read
 
 
