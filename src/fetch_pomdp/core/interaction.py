@@ -130,6 +130,8 @@ def median_ray(frames: Sequence[Frame], problem: Problem) -> Ray | None:
     Choice: in each frame the arm counts that is nearest in angle to an item, and the median is taken of each
     coordinate, of the heads and of the arms' unit directions.
     """
+    if not frames:
+        return None
     heads, wrists = pointing_arms(frames, problem)
     if not len(heads):
         return None

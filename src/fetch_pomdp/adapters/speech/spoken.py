@@ -35,7 +35,8 @@ class SpokenWords:
     """What our recogniser hears of synthetic voices. Implements the study's Channel; the random generator is not used.
 
     scene_words: the words the recogniser knows as those of items. snr: dB at 1 m. What was heard is kept by text,
-    voice, speed and noise, to 10 words a minute and 1 dB: an utterance takes half a second of a core the first time. Raises MissingExtraError without espeak-ng, pocketsphinx or soxr when it first hears.
+    voice, speed and noise, to 10 words a minute and 1 dB: an utterance takes half a second of a core the first time.
+    Raises MissingExtraError without espeak-ng, pocketsphinx or soxr when it first hears.
     """
 
     scene_words: tuple[str, ...]

@@ -24,7 +24,7 @@ DETERMINERS = ("the", "the", "the", "that")
 CLOSINGS = ("", "", "", "please")
 AFFIRMATIONS = ("yes", "yes", "yes", "yes", "yes please", "yes that one", "yeah", "yup", "sure")
 DENIALS = ("no", "no", "no", "no", "nope", "not that one", "no not that one")
-UNSURE = ("i don't know",)
+UNSURE = ("i", "don't", "know")
 OTHER = "other one"
 
 

@@ -88,6 +88,7 @@ class People:
     jitter_time: float = _duration(0.3)  # s, over which the jitter is correlated (fit: 1.9 frames/s count as different)
     tracker_noise: float = _in(0.0, 0.1, "a noise from 0 to 0.1 per m", 0.0014)  # m at 1 m, of depth, grows with its
     # square; random error of a Kinect: Khoshelham and Elberink 2012
+    sight_latency: float = _seconds(0.15)  # s from a frame to its skeleton (Kinect, one person: Livingston et al. 2012)
     reach: float = _in(0.1, 2.0, "a length from 0.1 to 2 m", 0.65)  # m, from head to wrist
 
     # Answering.

@@ -58,9 +58,9 @@ class Person:
         return words
 
     def see(self, until: float) -> Sequence[Frame]:
-        """Return the frames up to a time (s), which there are only while an arm is up; see SkeletonSource."""
+        """Return the frames given by a time (s), which there are only while an arm is up; see SkeletonSource."""
         self._live(until)
-        seen = []
+        seen, until = [], until - self._traits.people.sight_latency
         while self._seen and self._seen[0].time <= until:
             seen.append(self._seen.popleft())
         return seen

@@ -71,8 +71,7 @@ def _drifting(kept: float, fresh: float, noise: list[list[float]]) -> Iterator[t
 
 def directions(direction: Vector, offsets: Vector) -> Vector:
     """Return unit vectors off a unit direction (3,) by offsets (n, 2), rad to the right and up along great circles."""
-    right = _right(direction)
-    up = np.cross(right, direction)
+    right, up = _axes(direction)
     angles = np.hypot(offsets[:, 0], offsets[:, 1])[:, None]
     sideways = offsets[:, :1] * right + offsets[:, 1:] * up
     return np.asarray(np.cos(angles) * direction + np.sinc(angles / math.pi) * sideways)
@@ -84,10 +83,15 @@ def item_at(head: Point3, item: Item, offset: tuple[float, float], items: Sequen
     return max(items, key=lambda other: float(seen @ _unit(np.subtract(other.position, head))))
 
 
-def _right(direction: Vector) -> Vector:
-    """Return the horizontal unit vector to the right of a direction, x for one that is straight up or down."""
-    level = math.hypot(direction[0], direction[1])
-    return np.array((1.0, 0.0, 0.0) if level < 1e-9 else (direction[1] / level, -direction[0] / level, 0.0))
+def _axes(direction: Vector) -> tuple[Vector, Vector]:
+    """Return the horizontal unit vector to the right of a unit direction, and the one up from it.
+
+    To the right is x for a direction that is straight up or down.
+    """
+    x, y, z = direction.tolist()
+    level = math.hypot(x, y)
+    a, b = (1.0, 0.0) if level < 1e-9 else (y / level, -x / level)
+    return np.array((a, b, 0.0)), np.array((b * z, -a * z, a * y - b * x))
 
 
 def _unit(vector: Vector) -> Vector:
