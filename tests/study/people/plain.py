@@ -22,7 +22,7 @@ STILL: dict[str, Any] = {
     **dict.fromkeys(("bias", "bias_episode", "jitter", "tracker_noise", "reading"), 0.0),
     "p_answer": 1.0,
     "p_point": 1.0,
-    "p_answer_again": 1.0,
+    "p_repeat_answer": 1.0,
     "p_name": 1.0,
     "descriptors": (0.0, 1.0),
     "confusions": {},

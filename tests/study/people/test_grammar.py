@@ -13,7 +13,7 @@ from fetch_pomdp.study.people import grammar
 
 from .plain import AMBIGUOUS, share
 
-BOWL, _, MARKER, TWIN, *_ = AMBIGUOUS.items
+BOWL, MARKER, TWIN = AMBIGUOUS.items[0], AMBIGUOUS.items[2], AMBIGUOUS.items[3]
 COUNT = 4000
 
 

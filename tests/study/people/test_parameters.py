@@ -65,7 +65,8 @@ def test_every_number_has_a_range_that_holds_its_default(field: dataclasses.Fiel
     assert rule["low"] <= field.default <= rule["high"]
     for value in (rule["low"], rule["high"]):
         assert getattr(People(**{field.name: value}), field.name) == value
-    for value in (math.nextafter(rule["low"], -math.inf), math.nextafter(rule["high"], math.inf), math.nan, "1"):
+    bad: list[Any] = [math.nextafter(rule["low"], -math.inf), math.nextafter(rule["high"], math.inf), math.nan, "1"]
+    for value in bad:
         with pytest.raises(StudyError, match=field.name):
             People(**{field.name: value})
 

@@ -14,7 +14,7 @@ from numpy.random import Generator
 from fetch_pomdp.core.scene import Item, Scene
 
 Words = tuple[str, ...]
-Choice = TypeVar("Choice")
+Option = TypeVar("Option")
 
 OPENINGS = (
     "", "hand me", "give me", "please give me", "i want", "i would like", "can i have", "can you give me",
@@ -28,12 +28,12 @@ UNSURE = ("i", "don't", "know")
 OTHER = "other one"
 
 
-def chosen(options: Sequence[Choice], rng: Generator) -> Choice:
+def chosen(options: Sequence[Option], rng: Generator) -> Option:
     """Draw one of the options, each as likely."""
     return options[int(rng.random() * len(options))]
 
 
-def weighted(options: Sequence[Choice], weights: Sequence[float], rng: Generator) -> Choice:
+def weighted(options: Sequence[Option], weights: Sequence[float], rng: Generator) -> Option:
     """Draw one of the options by weight."""
     left = rng.random() * math.fsum(weights)
     for option, weight in zip(options, weights, strict=True):

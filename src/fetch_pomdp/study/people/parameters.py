@@ -82,9 +82,10 @@ class People:
     point_delay: float = _seconds(0.27)  # s, from the first word until the arm moves (fit)
     point_rise: float = _seconds(0.3)  # s, from rest to the item: frames of it sweep over the table
     point_time: float = _duration(1.56)  # s that the arm is held (fit)
-    bias: float = _angle(0.012)  # rad, each axis: constant of a person; the errors together put as many pointings
-    bias_episode: float = _angle(0.008)  # nearer the wrong one of two items 15 cm apart as the fit's; anew each time
-    jitter: float = _angle(0.03)  # rad, each axis: moves while the arm is held (fit: 0.042 with the tracker's)
+    bias: float = _angle(0.012)  # rad, each axis: constant of a person
+    bias_episode: float = _angle(0.008)  # rad, each axis: anew with each pointing
+    jitter: float = _angle(0.03)  # rad, each axis: moves while the arm is held (fit: 0.042 with the tracker's; with the
+    # two above it puts a fifth of all pointings nearer the wrong one of two items 15 cm apart, as in the fit)
     jitter_time: float = _duration(0.3)  # s, over which the jitter is correlated (fit: 1.9 frames/s count as different)
     tracker_noise: float = _in(0.0, 0.1, "a noise from 0 to 0.1 per m", 0.0014)  # m at 1 m, of depth, grows with its
     # square; random error of a Kinect: Khoshelham and Elberink 2012
@@ -94,14 +95,14 @@ class People:
     # Answering.
     p_answer: float = _rate(0.97)  # chance of any answer, persons
     p_unsure: float = _rate(0.01)  # chance that it is "I don't know"
-    answer_delay: float = _seconds(
-        0.5
-    )  # s after the question: more than the 0.2 s between people (Stivers et al. 2009)
+    answer_delay: float = _seconds(0.5)  # s after a question; 0.2 s between people (Stivers et al. 2009)
     answer_delay_spread: float = _spread(0.3)  # log, persons
     p_late: float = _rate(0.05)  # chance of an answer that takes `late_delay` more
     late_delay: float = _seconds(1.5)  # s
     p_elaborate: float = _rate(0.6)  # chance to say more than no to a wrong item: "no the other one", "no the bowl"
-    p_answer_again: float = _rate(0.7)  # chance that patience lost after a question repeats the answer, not the request
+    p_repeat_answer: float = _rate(
+        0.7
+    )  # chance that patience lost after a question repeats the answer, not the request
     contrast: float = _in(0.0, 20.0, "a weight from 0 to 20", 1.0)  # of words that the item asked about lacks: 0 any
     # word, 1 the literal listener's odds, more the implicature speaker (Frank and Goodman 2012)
     reading: float = _angle(0.01)  # rad, each axis: how far off the robot's arm is read; "near perfect" (Section III-C)

@@ -176,7 +176,7 @@ class Person:
 
     def _again(self, time: float) -> None:
         """Say once more what seems not to have been understood: the answer, or what is wanted."""
-        if self._asked is not None and self._rng.random() < self._traits.people.p_answer_again:
+        if self._asked is not None and self._rng.random() < self._traits.people.p_repeat_answer:
             self._answer(self._asked, time)
         else:
             self._ask(time)
