@@ -124,6 +124,16 @@ def test_an_answer_waits_for_the_end_of_what_is_being_said() -> None:
     assert words[first].start == pytest.approx(words[first - 1].end)
 
 
+def test_a_robot_that_asks_first_hears_the_request_and_then_the_answer() -> None:
+    person = somebody()
+    person.point(SPOON)  # at 0 s, before the request at 0.5 s
+    words = person.hear(7.0)
+    assert [word.text for word in words] == [word.text for word in somebody().hear(6.0)] + [words[-1].text]
+    assert words[0].start == pytest.approx(person.begun)
+    assert words[-1].text in NEGATIVE
+    assert words[-1].start == pytest.approx(max(1.9 + 0.5, words[-2].end))
+
+
 def test_a_wrong_item_is_denied() -> None:
     for words in answered(lambda person: person.point(SPOON)):
         assert texts(words) & RESPONSES <= {*NEGATIVE}

@@ -6,7 +6,6 @@ time that its Clock says. What the person does depends on what the robot did and
 
 from __future__ import annotations
 
-import heapq
 import math
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -21,7 +20,7 @@ from fetch_pomdp.study.people.channel import Channel, MistakenWords
 from fetch_pomdp.study.people.grammar import Words
 from fetch_pomdp.study.people.traits import Traits, draw_mood, log_normal
 
-Plan = tuple[float, int, Callable[[float], None]]  # when (s), which of those at the same time first, and what
+Plan = tuple[float, Callable[[float], None]]  # when (s), and what
 
 
 class Person:
@@ -41,8 +40,7 @@ class Person:
         self._distance = math.fsum(math.dist(scene.head, item.position) for item in scene.items) / len(scene.items)
         self._now = 0.0  # s, up to when the robot has listened
         self._speaks_until = self._points_until = 0.0  # s
-        self._plans: list[Plan] = []
-        self._order = 0
+        self._next: Plan | None = None  # people have one thing in mind at a time
         self._heard: deque[tuple[float, Word]] = deque()  # words with the time (s) at which the recogniser gives them
         self._seen: deque[Frame] = deque()
         self._request: Words = ()
@@ -66,9 +64,13 @@ class Person:
         return seen
 
     def point(self, item: Item) -> Outcome:
-        """Be asked "this one?" by a robot that begins now; the person then has nothing in mind but the answer."""
+        """Be asked "this one?" by a robot that begins now; the person then has nothing in mind but the answer.
+
+        Who has not begun to say what they want says that first, as they would have.
+        """
+        if not self._request:
+            self._ask(self.begun)
         put = self._now + self._clock.think + self._clock.arm + self._clock.speak
-        self._plans.clear()
         asked = self._asked = self._read(item)
         people = self._traits.people
         delay = self._traits.answer_delay * self._varied()
@@ -79,13 +81,12 @@ class Person:
 
     def pick(self, item: Item) -> Outcome:  # noqa: ARG002
         """Be handed an item: it is over, whatever it is."""
-        self._plans.clear()
+        self._next = None
         return Outcome.DONE
 
     def say(self, text: str) -> Outcome:  # noqa: ARG002
         """Be told that the robot listens; some then say again what they want."""
         if self._rng.random() < self._traits.people.p_heed:
-            self._plans.clear()
             self._plan(self._now + self._traits.answer_delay * self._varied(), self._ask)
         return Outcome.DONE
 
@@ -93,14 +94,15 @@ class Person:
         """Do nothing: this robot's actions are over when they return."""
 
     def _live(self, until: float) -> None:
-        while self._plans and self._plans[0][0] <= until:
-            time, _, act = heapq.heappop(self._plans)
+        while self._next and self._next[0] <= until:
+            time, act = self._next
+            self._next = None
             act(time)
         self._now = max(self._now, until)
 
     def _plan(self, time: float, act: Callable[[float], None]) -> None:
-        self._order += 1
-        heapq.heappush(self._plans, (max(time, self._speaks_until), self._order, act))
+        """Have in mind to do something at a time (s), instead of what it was before, but not while still speaking."""
+        self._next = max(time, self._speaks_until), act
 
     def _varied(self) -> float:
         return log_normal(self._traits.people.delay_spread, self._rng)
@@ -154,7 +156,6 @@ class Person:
         self._say(grammar.denial(rng) if right else grammar.affirmation(rng), time)
         if rng.random() < people.p_correct:
             again = people.correct_delay * self._varied()
-            self._plans.clear()
             self._plan(time + again, lambda later: self._correct(asked, later))
 
     def _correct(self, asked: Item, time: float) -> None:
