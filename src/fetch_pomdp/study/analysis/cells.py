@@ -34,7 +34,7 @@ class Cell:
 def cells(table: Table, plan: Plan) -> tuple[Cell, ...]:
     """Return the cells of a checked table, by layout and paradigm in the order of their first trials' names."""
     grouped = table.groupby(["layout", "paradigm"], sort=True, observed=True)
-    found = {names: _cell(*names, trials, plan) for names, trials in grouped}
+    found = {(layout, paradigm): _cell(layout, paradigm, trials, plan) for (layout, paradigm), trials in grouped}
     rank = {plan.never: 0, plan.always: 1, plan.system: 2}
     place = {plan.ambiguous: 0, plan.unambiguous: 1}
     order = sorted(found, key=lambda names: (place.get(names[0], 2), names[0], rank.get(names[1], 3), names[1]))

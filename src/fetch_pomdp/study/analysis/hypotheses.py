@@ -8,7 +8,7 @@ hypothesis holds if all its clauses do, which needs no correction for their numb
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from fetch_pomdp.study.analysis.comparisons import Comparison, compare, gains
 from fetch_pomdp.study.analysis.plan import Plan
@@ -17,6 +17,7 @@ from fetch_pomdp.study.analysis.trials import Table, differences
 
 Verdict = Literal["holds", "refuted", "not shown", "cannot be judged"]
 Kind = Literal["better", "no worse"]
+Claims: TypeAlias = tuple[tuple[str, str, Kind], ...]  # the other paradigm, the measure, how it compares
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,18 +53,18 @@ class Hypothesis:
 
 def hypotheses(table: Table, plan: Plan) -> tuple[Hypothesis, Hypothesis]:
     """Return H1 and H2 judged on a checked table."""
-    first = (
+    first: Claims = (
         (plan.never, "accuracy", "no worse"), (plan.always, "accuracy", "no worse"),
         (plan.always, "time", "better"), (plan.never, "time", "no worse"),
     )  # fmt: skip
-    second = (
+    second: Claims = (
         (plan.never, "accuracy", "better"), (plan.always, "accuracy", "no worse"),
         (plan.always, "time", "better"), (plan.never, "time", "no worse"),
     )  # fmt: skip
     return _judged("H1", plan.unambiguous, first, table, plan), _judged("H2", plan.ambiguous, second, table, plan)
 
 
-def _judged(name: str, layout: str, claims: tuple[tuple[str, str, Kind], ...], table: Table, plan: Plan) -> Hypothesis:
+def _judged(name: str, layout: str, claims: Claims, table: Table, plan: Plan) -> Hypothesis:
     trials = table[table["layout"] == layout]
     clauses = [_clause(name, layout, claim, trials, plan) for claim in claims]
     corrected = holm([clause.p for clause in clauses])

@@ -61,7 +61,8 @@ def needed(clause: Clause, table: Table, plan: Plan, effect: float = 1.0) -> Nee
     test: Tested = superior_in if clause.kind == "better" else partial(no_worse_in, margin=margin)
     rng = default_rng(plan.seed)
     curve = _curve(people, test, plan, rng)
-    return Needed(*(_first(curve, plan.power, end) for end in ("chance", "high", "low")), curve)
+    first = partial(_first, curve, plan.power)
+    return Needed(first("chance"), first("high"), first("low"), curve)
 
 
 def _curve(people: Values, test: Tested, plan: Plan, rng: Generator) -> tuple[Chance, ...]:

@@ -71,7 +71,7 @@ def superior_in(studies: Values) -> Values:
             .wilcoxon(np.round(studies, DIGITS), axis=1, alternative="greater", method="asymptotic")
             .pvalue
         )
-    return np.nan_to_num(np.asarray(p, float), nan=1.0)
+    return np.asarray(np.nan_to_num(p, nan=1.0), float)
 
 
 def no_worse_in(studies: Values, margin: float) -> Values:
@@ -79,4 +79,4 @@ def no_worse_in(studies: Values, margin: float) -> Values:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         p = load("scipy.stats").ttest_1samp(studies, -margin, axis=1, alternative="greater").pvalue
-    return np.where(np.ptp(studies, axis=1) < 10.0**-DIGITS, 1.0, np.nan_to_num(np.asarray(p, float), nan=1.0))
+    return np.where(np.ptp(studies, axis=1) < 10.0**-DIGITS, 1.0, np.nan_to_num(p, nan=1.0))
