@@ -37,7 +37,9 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
     @wraps(draw)
     def drawn(*args: P.args, **kwargs: P.kwargs) -> Figure:
         matplotlib = load("matplotlib")
-        with matplotlib.rc_context({**matplotlib.rcParamsDefault, **STYLE, "backend": matplotlib.get_backend()}):
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()
+            matplotlib.rcParams.update(STYLE)
             return draw(*args, **kwargs)
 
     return drawn
@@ -77,7 +79,7 @@ def _reach(cell: Cell, name: str) -> tuple[float, float]:
 def _floor(cells: Sequence[Cell]) -> float:
     """Return where the axis of accuracy (%) begins: bars near 100 differ by little, so it need not be 0."""
     lowest = min(cell.accuracy if cell.accuracy_low is None else cell.accuracy_low for cell in cells)
-    return max(0.0, 10 * np.floor(10 * lowest - 0.5))
+    return max(0.0, float(10 * np.floor(10 * lowest - 0.5)))
 
 
 @styled
@@ -139,7 +141,7 @@ def survival(table: Table, cells: Sequence[Cell]) -> Figure:
             if picked.any():
                 curve = curve_of(trials["time"].to_numpy(float), picked)
                 time, share = thinned(np.r_[0.0, curve.surv_times], 100 * np.r_[1.0, curve.surv_prob])
-                style = dict(color=COLOURS[place % len(COLOURS)], ls=("-", "--", "-.", ":")[place % 4])
+                style = {"color": COLOURS[place % len(COLOURS)], "ls": ("-", "--", "-.", ":")[place % 4]}
                 axis.step(time, share, where="post", label=paradigm, **style)
         axis.set(title=layout, xlabel="time since the request began (s)", ylabel="without a pick (%)", ylim=(0, 101))
         axis.set_xlim(left=0)
