@@ -119,7 +119,7 @@ def _comparisons(found: Findings) -> list[str]:
     plan = found.plan
     margins = f"{plan.margin_time:g} s and {100 * plan.margin_accuracy:g} points"
     text = (
-        f"Two-sided signed ranks of paired trials (the k-th trials of a person with the same item) and of persons, with "
+        "Two-sided signed ranks of paired trials (the k-th trials of a person with the same item) and of persons, with "
         f"Holm's correction over this table; effect: rank-biserial correlation. “No worse”: one-sided, margins of "
         f"{margins}, Student's test of persons and signed ranks of persons."
     )
@@ -150,7 +150,7 @@ def _power(found: Findings) -> list[str]:
     for one in found.sizings:
         by.setdefault(f"{one.clause.hypothesis}: {one.clause.claim}", []).append(words.people(one.needed, plan))
     text = (
-        f"People in the layout, each with as many trials as here, that show a clause with a chance of {plan.power:.0%}. "
+        f"People in the layout, each with as many trials as here, who show a clause with a chance of {plan.power:.0%}. "
         f"{plan.draws} studies of a size were drawn from the persons of this table; in brackets, what that number of "
         "draws leaves open. The first column takes the advantage observed here for the true one, which overrates it if "
         "only studies that went well are looked at; the second assumes half of it."
