@@ -12,6 +12,7 @@ import numpy as np
 from fetch_pomdp.study.analysis.trials import DIGITS, Values, alike
 from fetch_pomdp.study.libraries import load
 
+EXACT = 16  # differences whose signs are all tried: 65,536 patterns
 Alternative = Literal["two-sided", "greater", "less"]
 
 
@@ -26,16 +27,25 @@ class Signed:
 def signed_rank(values: Values, alternative: Alternative = "two-sided") -> Signed:
     """Test differences; (n,) in any unit. Differences of 0 are dropped, as Wilcoxon did.
 
-    Exact up to 50 differences without ties and 13 with ties, otherwise by the normal approximation (SciPy's choice).
+    Exact, over all signs, up to 16 differences, and up to 50 without ties; otherwise by the normal approximation.
     """
     rounded = np.round(values, DIGITS)
     kept = rounded[rounded != 0]
     if len(kept) == 0:
         return Signed(None, None)
-    wilcoxon = load("scipy.stats").wilcoxon
-    p = float(wilcoxon(kept, alternative=alternative).pvalue)
-    above = float(wilcoxon(kept, alternative="greater", method="asymptotic").statistic)
-    return Signed(p, 4 * above / (len(kept) * (len(kept) + 1)) - 1)
+    stats = load("scipy.stats")
+    ranks = stats.rankdata(np.abs(kept)) * np.sign(kept)
+    p = _exact(ranks, alternative) if 1 < len(kept) <= EXACT else stats.wilcoxon(kept, alternative=alternative).pvalue
+    return Signed(float(p), float(ranks.sum() / np.abs(ranks).sum()))
+
+
+def _exact(ranks: Values, alternative: Alternative) -> float:
+    """Return p over all signs of the ranks; SciPy's own test does the same one sign pattern at a time."""
+    test = load("scipy.stats").permutation_test
+    found = test(
+        (ranks,), np.sum, permutation_type="samples", vectorized=True, n_resamples=np.inf, alternative=alternative
+    )
+    return float(found.pvalue)
 
 
 def no_worse(gains: Values, margin: float) -> float | None:
