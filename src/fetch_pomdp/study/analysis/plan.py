@@ -12,8 +12,8 @@ from fetch_pomdp.errors import StudyError
 class Plan:
     """Who is compared with whom, by which margins, at which level.
 
-    Choice: the paper names no margin for "as accurate" and "at least as fast"; ours are 2 points and 0.5 s, about the
-    least a person at the table would notice.
+    Choice: the paper names no margin for "as accurate" and "at least as fast"; ours are 2 points and 0.5 s, set
+    before any trial was run.
     """
 
     system: str = "fetch"  # the paradigm that the hypotheses are about

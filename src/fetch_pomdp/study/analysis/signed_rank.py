@@ -12,7 +12,7 @@ import numpy as np
 from fetch_pomdp.study.analysis.trials import DIGITS, Values, alike
 from fetch_pomdp.study.libraries import load
 
-EXACT = 16  # differences whose signs are all tried: 65,536 patterns
+EXACT = 13  # differences whose signs are all tried: 8,192 patterns
 Alternative = Literal["two-sided", "greater", "less"]
 
 
@@ -27,7 +27,7 @@ class Signed:
 def signed_rank(values: Values, alternative: Alternative = "two-sided") -> Signed:
     """Test differences; (n,) in any unit. Differences of 0 are dropped, as Wilcoxon did.
 
-    Exact, over all signs, up to 16 differences, and up to 50 without ties; otherwise by the normal approximation.
+    Exact, over all signs, up to 13 differences, and up to 50 without ties; otherwise by the normal approximation.
     """
     rounded = np.round(values, DIGITS)
     kept = rounded[rounded != 0]
