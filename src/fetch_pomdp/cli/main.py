@@ -12,6 +12,7 @@ from fetch_pomdp.cli.gap import gap
 from fetch_pomdp.cli.interact import fetch
 from fetch_pomdp.cli.offline import decide, filter_events, simulate
 from fetch_pomdp.cli.robocup import robocup
+from fetch_pomdp.cli.study import app as study
 from fetch_pomdp.errors import FetchPomdpError
 
 app = typer.Typer(
@@ -29,6 +30,7 @@ app.command()(simulate)
 app.command("export")(export_scene)
 app.command()(gap)
 app.command()(robocup)
+app.add_typer(study, name="study")
 
 
 def main() -> None:

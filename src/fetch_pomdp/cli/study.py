@@ -1,0 +1,126 @@
+"""The commands of a study: run it, go on with it, report it."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from fetch_pomdp.adapters.speech.spoken import SpokenWords
+from fetch_pomdp.cli.options import Json, Seed, as_json, warm_up
+from fetch_pomdp.core.planners.catalogue import planner_named
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.study.analysis.cells import Cell, cells
+from fetch_pomdp.study.analysis.plan import Plan
+from fetch_pomdp.study.analysis.trials import checked
+from fetch_pomdp.study.configuration import load_study
+from fetch_pomdp.study.crew import Crew
+from fetch_pomdp.study.design import Study
+from fetch_pomdp.study.experiment import run
+from fetch_pomdp.study.record import NAME, read_trials
+from fetch_pomdp.study.report import write_report
+from fetch_pomdp.study.table import read_table, write_table
+
+FOLDER, REPORT = Path("study"), "report"
+
+app = typer.Typer(rich_markup_mode=None)
+
+
+@app.callback(invoke_without_command=True)
+def study(
+    context: typer.Context,
+    config: Annotated[
+        Path | None, typer.Option(metavar="F.toml", help="The study (docs/study.md).  [default: the paper's]")
+    ] = None,
+    people: Annotated[int | None, typer.Option(min=1, help="How many people take part.  [default: 16]")] = None,
+    seed: Seed = None,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Where the trials go, or are already.")] = FOLDER,
+    logs: Annotated[bool, typer.Option("--logs", help="Keep every interaction, event by event, in DIR/logs.")] = False,
+    real_speech: Annotated[
+        bool, typer.Option("--real-speech", help="Say every word with espeak-ng and hear it with PocketSphinx.")
+    ] = False,
+    workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one a core.")] = 0,
+    backend: Annotated[str, typer.Option(help="Who does the work: loky, threading, dask or ray.")] = "loky",
+    address: Annotated[str | None, typer.Option(help="Of a Dask or Ray cluster that is there already.")] = None,
+    json_lines: Json = False,
+) -> None:
+    """Run a study with simulated people, and print its times and accuracies.
+
+    Stopped at any moment, it goes on where it was when the same command is given again. The same seed gives the same
+    trials, whoever does the work. fetch-pomdp study report DIR writes pictures and tests.
+    """
+    if context.invoked_subcommand is not None:
+        return
+    given = {"people": people, "seed": seed, "logs": logs or None, "real_speech": real_speech or None}
+    chosen = dataclasses.replace(
+        load_study(config) if config else Study(),
+        **{name: value for name, value in given.items() if value is not None},  # type: ignore[arg-type]
+    )
+    crew = Crew(workers=workers, backend=backend, address=address)  # type: ignore[arg-type]
+    _play(chosen, out, crew)
+    for ending in (".csv", ".parquet"):
+        write_table(read_trials(out / NAME), (out / NAME).with_suffix(ending))
+    found = cells(checked(read_table(out)), Plan())
+    if as_json(json_lines):
+        for cell in found:
+            print(json.dumps(dataclasses.asdict(cell)))
+    else:
+        _show(found)
+
+
+@app.command()
+def report(
+    trials: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Of a study; or a table of trials, .jsonl, .csv or .parquet.")
+    ],
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Where the report goes.  [default: report, beside the trials]")
+    ] = None,
+) -> None:
+    """Write what a study found: pictures, tests and the answers to the paper's hypotheses, as one HTML page."""
+    beside = trials if trials.is_dir() else trials.parent
+    print(f"wrote {write_report(read_table(trials), out or beside / REPORT)}")
+
+
+def _play(chosen: Study, out: Path, crew: Crew) -> None:
+    for name, paradigm in chosen.paradigms.items():
+        first = next(iter(chosen.layouts))
+        warm_up(planner_named(paradigm.planner, **paradigm.parameters), Problem(chosen.scene(first, name)))
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task("trials", total=chosen.size)
+        try:
+            speech = SpokenWords if chosen.real_speech else None
+            run(chosen, out, crew, speech=speech, told=lambda count: bar.update(task, completed=count))
+        except KeyboardInterrupt:
+            bar.console.print("stopped; the same command goes on from there")
+            raise typer.Exit(130) from None
+
+
+def _show(found: tuple[Cell, ...]) -> None:
+    table = Table(
+        "layout", "paradigm", "time (s)", "right", "questions", "waits", "people", "trials",
+        title="Means over people, 95 % intervals",
+    )  # fmt: skip
+    for cell in found:
+        table.add_row(
+            cell.layout,
+            cell.paradigm,
+            f"{cell.time:.2f}{_interval(cell.time_low, cell.time_high, '.2f')}",
+            f"{cell.accuracy:.1%}{_interval(cell.accuracy_low, cell.accuracy_high, '.1%')}",
+            f"{cell.questions:.2f}",
+            f"{cell.waits:.2f}",
+            str(cell.people),
+            str(cell.trials),
+        )
+    Console(highlight=False).print(table)
+
+
+def _interval(low: float | None, high: float | None, form: str) -> str:
+    return "" if low is None or high is None else f" ({low:{form}} to {high:{form}})"

@@ -1,0 +1,134 @@
+"""The trials of a study as a table: pandas, CSV, Parquet, JSON Lines."""
+
+from __future__ import annotations
+
+import csv
+import itertools
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from fetch_pomdp import checks
+from fetch_pomdp.documents import Document
+from fetch_pomdp.errors import StudyError
+from fetch_pomdp.study.libraries import load
+from fetch_pomdp.study.record import COLUMNS, NAME, read_trials, trial_from_json
+from fetch_pomdp.study.trial import Trial
+
+CHUNK = 50_000  # trials in memory at once while a table is written
+TYPES = {
+    "person": "int64",
+    "layout": "str",
+    "paradigm": "str",
+    "desired": "str",
+    "order": "int64",
+    "time": "float64",  # s
+    "correct": "bool",
+    "picked": "str",  # missing if the robot never picked
+    "questions": "int64",
+    "waits": "int64",
+}
+ENDINGS = (".jsonl", ".csv", ".parquet")
+
+
+def to_frame(trials: Iterable[Trial]) -> Any:
+    """Return trials as a pandas DataFrame: a row a trial, the fields of Trial as columns (`TYPES`)."""
+    pandas = load("pandas")
+    rows = [tuple(getattr(trial, name) for name in COLUMNS) for trial in trials]
+    return pandas.DataFrame(rows, columns=list(COLUMNS)).astype(TYPES)
+
+
+def from_frame(frame: Any) -> Iterator[Trial]:
+    """Yield the trials of a DataFrame.
+
+    Raises StudyError for a column that is missing or unknown, or a value of a wrong kind; its line counts rows from 1.
+    """
+    checks.known(map(str, frame.columns), COLUMNS, "column", StudyError)
+    checks.required(dict.fromkeys(frame.columns), COLUMNS, StudyError)
+    plain = frame[list(COLUMNS)].astype(object)
+    rows = plain.where(plain.notna(), None).itertuples(index=False, name=None)
+    for number, row in enumerate(rows):
+        document = Document("", dict(zip(COLUMNS, row, strict=True)), lambda _, line=number + 1: line)  # type: ignore[misc]
+        yield document.build(trial_from_json)
+
+
+def read_table(path: str | Path) -> Any:
+    """Return the table of a study's folder, its trials.jsonl, or a CSV or Parquet file, as a pandas DataFrame.
+
+    Raises StudyError for a file that is none of these, cannot be read, or has other columns.
+    """
+    source = Path(path)
+    source = source / NAME if source.is_dir() else source
+    pandas = load("pandas")
+    ending = _ending(source)
+    try:
+        if ending == ".parquet":
+            trials = from_frame(pandas.read_parquet(source))
+        else:
+            trials = read_trials(source) if ending == ".jsonl" else _read_csv(source)
+        return pandas.concat([to_frame([]), *_frames(trials)], ignore_index=True)
+    except StudyError as error:
+        raise error.located(str(source), error.line) from None
+    except (OSError, ValueError) as cause:
+        reason = getattr(cause, "strerror", None) or cause
+        raise StudyError(f"cannot be read: {reason}, expected a table of trials", source=str(source)) from None
+
+
+def _read_csv(source: Path) -> Iterator[Trial]:
+    """Yield the trials of a CSV file; a value that is not of its column's kind stays text, and is refused as such."""
+    with source.open(encoding="utf-8", newline="") as stream:
+        reader = csv.DictReader(stream, restkey="more")
+        checks.required(dict.fromkeys(reader.fieldnames or ()), COLUMNS, StudyError)
+        for row in reader:
+            fields = {name: _parsed(text, TYPES.get(name, "str")) for name, text in row.items()}
+            yield Document(str(source), fields, lambda _: reader.line_num).build(trial_from_json)
+
+
+def _parsed(text: str | None, kind: str) -> object:
+    if kind == "str":
+        return text or None
+    if kind == "bool":
+        return {"True": True, "False": False}.get(text or "", text)
+    try:
+        return int(text or "") if kind == "int64" else float(text or "")
+    except ValueError:
+        return text
+
+
+def write_table(trials: Iterable[Trial], path: str | Path) -> None:
+    """Write trials to a CSV or Parquet file, some at a time, over whatever was there.
+
+    Raises StudyError for an ending that is neither.
+    """
+    target = Path(path)
+    write = {".csv": _write_csv, ".parquet": _write_parquet}.get(_ending(target))
+    if write is None:
+        raise StudyError(f"found {target.suffix!r}, expected .csv or .parquet", source=str(target))
+    write(_frames(trials), target)
+
+
+def _frames(trials: Iterable[Trial]) -> Iterator[Any]:
+    rest = iter(trials)
+    while chunk := list(itertools.islice(rest, CHUNK)):
+        yield to_frame(chunk)
+
+
+def _write_csv(frames: Iterator[Any], target: Path) -> None:
+    with target.open("w", encoding="utf-8", newline="") as stream:
+        to_frame([]).to_csv(stream, index=False, lineterminator="\n")
+        for frame in frames:
+            frame.to_csv(stream, index=False, header=False, lineterminator="\n")
+
+
+def _write_parquet(frames: Iterator[Any], target: Path) -> None:
+    arrow, parquet = load("pyarrow"), load("pyarrow.parquet")
+    schema = arrow.Schema.from_pandas(to_frame([]), preserve_index=False)
+    with parquet.ParquetWriter(target, schema) as writer:
+        for frame in frames:
+            writer.write_table(arrow.Table.from_pandas(frame, schema=schema, preserve_index=False))
+
+
+def _ending(path: Path) -> str:
+    if path.suffix not in ENDINGS:
+        raise StudyError(f"found {path.suffix!r}, expected one of {', '.join(ENDINGS)}", source=str(path))
+    return path.suffix
