@@ -1,6 +1,7 @@
 # Two commands for a newcomer: make demo, make test.
 PYTHON ?= python3
 BIN := .venv/bin
+EXTRAS := --extra speech --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
 .PHONY: demo test lint coverage bench picture requirements clean
@@ -46,8 +47,8 @@ picture: .venv/installed
 # Pins without registry addresses; needs uv.
 requirements:
 	uv pip compile pyproject.toml --universal --extra speech --no-header --no-annotate -q -o requirements/run.txt
-	uv pip compile pyproject.toml --universal --extra speech --group dev --no-header --no-annotate -q -o requirements/test.txt
-	uv pip compile pyproject.toml --universal --extra speech --group dev --group bench --no-header --no-annotate -q -o requirements/bench.txt
+	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --no-header --no-annotate -q -o requirements/test.txt
+	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group bench --no-header --no-annotate -q -o requirements/bench.txt
 
 clean:
 	rm -rf .venv .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
