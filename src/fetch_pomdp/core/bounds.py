@@ -42,7 +42,6 @@ The bound is on returns without a limit of steps, and so holds where an episode 
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from typing import Literal

@@ -98,9 +98,7 @@ class FittedValue:
         probabilities = sharpened(belief.probabilities, known.policy.power)
         seed, passes = int(rng.random() * 2.0**53), None
         if self.budget_ms is None:
-            found = step_ahead(
-                probabilities, about, known.table, known.distinct, seed, self.passes, known.policy.plan
-            )
+            found = step_ahead(probabilities, about, known.table, known.distinct, seed, self.passes, known.policy.plan)
         else:
             ends = started + CAUTION * self.budget_ms / 1e3
             found, passes = self._refined(known, probabilities, about, seed, ends)
@@ -108,11 +106,9 @@ class FittedValue:
         pick = pick_values(probabilities, problem)
         return Decision(action_of(action, problem), wait, point, pick, wait_error, errors, passes=passes)
 
-    def _refined(
-        self, known: Solution, probabilities: Vector, about: int, seed: int, ends: float
-    ) -> tuple[Ahead, int]:
+    def _refined(self, known: Solution, probabilities: Vector, about: int, seed: int, ends: float) -> tuple[Ahead, int]:
         """Return what passes find until the best action is clear or the time is up, and how many they were."""
-        plan, asks = known.policy.plan, candidates(probabilities)
+        plan, asks, likeliest = known.policy.plan, candidates(probabilities), float(probabilities.max())
         totals, squares = np.zeros(len(asks) + 1), np.zeros(len(asks) + 1)
         done, more = 0, self.passes
         while True:
@@ -123,7 +119,7 @@ class FittedValue:
             found = chosen(probabilities, asks, totals, squares, done, plan)
             now = time.perf_counter()
             more = done  # doubled, as long as twice the time that half of it took is left
-            if now + 2.0 * (now - before) > ends or done + more > MOST_PASSES or not is_close(found, float(probabilities.max()), plan):
+            if now + 2.0 * (now - before) > ends or done + more > MOST_PASSES or not is_close(found, likeliest, plan):
                 return found, done
 
     def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:

@@ -38,8 +38,8 @@ class Rehearsal(NamedTuple):
     def ends(self) -> float:
         """A chance for a step to be the last one, the same for all steps, that plans well for one end at LONGEST.
 
-        Choice: twice the share of steps that were the last one allowed, at most MOST_ENDS: of what was tried (once, twice,
-        and fixed shares) this earned most on random scenes.
+        Choice: twice the share of steps that were the last one allowed, at most MOST_ENDS: of what was tried (once,
+        twice, and fixed shares) this earned most on random scenes.
         """
         return min(2.0 * float((self.steps == LONGEST).sum() / max(1, self.steps.sum())), MOST_ENDS)
 

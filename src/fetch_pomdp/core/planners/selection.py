@@ -28,9 +28,10 @@ def selected(problem: Problem, beliefs: int, seed: int) -> Policy:
     """Return the policy of a problem, fitted on `beliefs` beliefs a round in all; same seed, same policy.
 
     Choice: where rays are judged by Eq. 7 and drawn by another density, two plans are tried: one that foresees beliefs
-    under Eq. 7, and one under the density of the rays. The first thinks too little of pointing, and on some tables picks
-    at once where listening pays; the second thinks too much of it. Both read beliefs sharpened to the power that people
-    show to be right, or rather to a part of it: a plan does not foresee that later beliefs are sharpened too.
+    under Eq. 7, and one under the density of the rays. The first thinks too little of pointing, and on some tables
+    picks at once where listening pays; the second thinks too much of it. Both read beliefs sharpened to the power that
+    people show to be right, or rather to LEARNT of it in the logarithm: a plan does not foresee that later beliefs are
+    sharpened too.
     """
     if problem.tables.exact or problem.tables.p_g == 0.0:
         return Policy(planned(problem, beliefs, seed), 1.0, problem.tables)
@@ -46,8 +47,8 @@ def planned(problem: Problem, beliefs: int, seed: int) -> ValueTable:
 
 def _rehearsed(table: ValueTable, plan: Problem, problem: Problem, seed: int) -> tuple[Policy, float]:
     """Return a plan's policy and what it earns."""
-    count = max(200, min(MOST_REHEARSED, NUMBERS_REHEARSED // problem.n_items))
-    first = rehearse(table, 1.0, count // 4, seed, plan.tables, problem.tables)
+    count = min(MOST_REHEARSED, NUMBERS_REHEARSED // problem.n_items)
+    first = rehearse(table, 1.0, max(1, count // 4), seed, plan.tables, problem.tables)
     power = max(1.0, first.power) ** LEARNT
     found = rehearse(table, power, count, seed + 1, plan.tables, problem.tables)
     return Policy(table, power, plan.tables), float(found.earned.mean())
