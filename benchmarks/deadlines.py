@@ -99,7 +99,7 @@ def more_time(people: int) -> str:
             first = found if first is None else first
             ahead = found - first
             error = float(ahead.std(ddof=1)) / math.sqrt(len(ahead))
-            setting = f"{planner.passes} pass{'es' if planner.passes > 1 else ''}" if planner.budget_ms is None else f"budget {planner.budget_ms:g} ms"
+            setting = f"passes={planner.passes}" if planner.budget_ms is None else f"budget_ms={planner.budget_ms:g}"
             rows.append((setting, f"{len(found):,}", f"{found.mean():+.3f}", f"{ahead.mean():+.4f} ± {error:.4f}"))
     return table(("setting", "people", "return", "to 1 pass, the same people"), rows)
 
