@@ -52,7 +52,8 @@ class FittedValue:
 
     The value is a table over the leading pair (`planners.afterstate`), fitted by value iteration on `beliefs` beliefs a
     round (`planners.fitting`); the step sums words and answers and samples `rays` gestures, the same for all actions,
-    `passes` times. The table is kept for a problem's lifetime, and the last tables for their scenes, so a scene is
+    `passes` times. With Eq. 7's likelihood it reads a sharpened belief (`planners.selection`), and its values are those
+    of that belief. The table is kept for a problem's lifetime, and the last tables for their scenes, so a scene is
     solved once.
 
     With `budget_ms` a decision goes on with further passes while its best two kinds of action are within two standard
