@@ -12,7 +12,7 @@ from fetch_pomdp.core.problem import Problem, Tables
 from fetch_pomdp.core.rays import LARGEST_EXACT
 
 FIT_RAYS = 4  # rays of an outlook while fitting
-LEARNT = (0.5, 1.0)  # of the logarithm of the likeliest power
+LEARNT = (0.5, 1.0, 2.0)  # of the logarithm of the likeliest power
 MOST_REHEARSED, NUMBERS_REHEARSED = 8_000, 100_000  # interactions, and beliefs' entries in one step of all
 
 
