@@ -1,7 +1,7 @@
 """The default planner on many scenes: `python benchmarks/scenes.py [--named | --looked-at | --held-out] [--quick]`.
 
 The scenes: eleven that are hard in ways of their own (`planning/named.py`), and random ones (`planning/drawn.py`) of
-seeds 0 to 49, looked at while the planner was made, or 50 to 99, opened once. On every scene five play: the default
+seeds 0 to 149, looked at while the planner was made, or 150 to 199, opened once. On every scene five play: the default
 FittedValue(), the paper's SparseSampling(), thresholds tuned to the scene on other people, a pick at once (exact), and
 a longer fit, FittedValue(beliefs=40_000, rays=32). All meet the same people, so differences have errors of their own;
 the best known is the one of the five that earned most, which by chance flatters the best and not the default.

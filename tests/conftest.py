@@ -38,11 +38,14 @@ settings.load_profile("repeatable")
 
 def _fit_quickly_without_compilation() -> None:
     """In plain Python a fit takes minutes; the coverage run is about lines, so it fits on few beliefs."""
-    from fetch_pomdp.core.planners import fitted, fitting
+    from fetch_pomdp.core.planners import fitting, selection
 
     whole = fitting.fitted
-    vars(fitting).update(ROUNDS=1, SWEEPS=1)
-    vars(fitted)["fitted"] = lambda problem, distinct, count, seed: whole(problem, distinct, min(count, 40), seed)
+    vars(fitting).update(ROUNDS=2, SWEEPS=1, REHEARSED=2)
+    vars(selection).update(
+        MOST_REHEARSED=4,
+        fitted=lambda problem, distinct, count, seed: whole(problem, distinct, min(count, 20), seed),
+    )
 
 
 if os.environ.get("NUMBA_DISABLE_JIT") == "1":

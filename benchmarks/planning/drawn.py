@@ -8,8 +8,8 @@ from numpy.random import Generator, default_rng
 
 from fetch_pomdp import Item, Model, Rewards, Scene
 
-LOOKED_AT = range(50)  # seeds that were looked at while the planner was made
-HELD_OUT = range(50, 100)  # seeds that were opened once, at the end
+LOOKED_AT = range(150)  # seeds that were looked at while the planner was made
+HELD_OUT = range(150, 200)  # seeds that were opened once, at the end
 
 
 def random_scene(seed: int) -> Scene:

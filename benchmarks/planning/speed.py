@@ -15,10 +15,12 @@ import numpy as np
 
 from fetch_pomdp import Agent, Belief, ExactAnswers, FittedValue, NeverAsk, Planner, Problem, SparseSampling
 from fetch_pomdp.core.compiled import Vector, compiled
+from fetch_pomdp.core.planners.afterstate import ValueTable
 from fetch_pomdp.core.planners.ahead import step_ahead
 from fetch_pomdp.core.planners.exact import default_width, plan_exact
-from fetch_pomdp.core.planners.fitted import MOST_FITTED, Solution, solution
+from fetch_pomdp.core.planners.fitted import MOST_FITTED, solution
 from fetch_pomdp.core.planners.kernels import NOBODY, Search
+from fetch_pomdp.core.planners.outlook import DistinctWords
 from fetch_pomdp.core.planners.sparse import plan_sparse
 from fetch_pomdp.core.problem import Tables
 from planning import DEFAULT, Record
@@ -51,11 +53,13 @@ def sparse_loop(times: int, belief: Vector, search: Search, seed: int, tables: T
 
 
 @compiled
-def fitted_loop(times: int, belief: Vector, solved: Solution, seed: int, tables: Tables) -> float:
+def fitted_loop(
+    times: int, belief: Vector, table: ValueTable, distinct: DistinctWords, seed: int, tables: Tables
+) -> float:
     """Decide `times` times from compiled code, like `exact_loop`."""
     total = 0.0
     for call in range(times):
-        total += step_ahead(belief, NOBODY, solved.table, solved.distinct, seed + call, 1, tables)[0]
+        total += step_ahead(belief, NOBODY, table, distinct, seed + call, 1, tables)[0]
     return total
 
 
@@ -126,10 +130,10 @@ def cases(n_items: int, limit: float) -> Iterator[Case]:
 def fitted_case(problem: Problem) -> Case:
     """Return the default planner, once it has solved the problem."""
     planner = FittedValue()
-    solved = solution(problem, planner)
+    known = solution(problem, planner)
 
     def loop(times: int, belief: Vector, search: Search, seed: int, tables: Tables) -> float:  # noqa: ARG001
-        return fitted_loop(times, belief, solved, seed, tables)
+        return fitted_loop(times, belief, known.table, known.distinct, seed, known.policy.plan)
 
     return Case(DEFAULT, problem.n_items, 2, planner.rays, planner, loop, Search(2, planner.rays, 0, False))
 
@@ -168,7 +172,7 @@ def decision_times(turns: int, limit: float, say: Callable[[str], None]) -> list
         belief, field_ = Belief.uniform(n_items), list(cases(n_items, limit))
         if n_items <= MOST_FITTED:  # larger ones are ExactAnswers
             field_.append(fitted_case(problem))
-            fitted_loop(1, belief.probabilities, solution(problem, FittedValue()), 0, problem.tables)
+            field_[-1].loop(1, belief.probabilities, field_[-1].search, 0, problem.tables)
         for case in field_[:4]:  # compiled and loaded before the clock starts
             case.loop(1, belief.probabilities, case.search._replace(width=1), 0, problem.tables)
         spent = dict.fromkeys(range(len(field_)), 0.0)

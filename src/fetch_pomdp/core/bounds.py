@@ -42,7 +42,6 @@ The bound is on returns without a limit of steps, and so holds where an episode 
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from typing import Literal
@@ -96,19 +95,11 @@ def upper_bound(problem: Problem, scenarios: int = 1_000, seed: int = 0) -> Boun
     told = closed_form_bound(problem)
     if problem.n_items > MOST_ITEMS:
         return Bound(told, 0.0, 0, "oracle")
-    exact = with_exact_rays(problem)
+    exact = problem.with_exact_rays()
     table = solution(exact, FittedValue()).table
     values = clairvoyant_returns(exact, table, scenarios, seed, tau=chosen_tau(exact, table, seed))
     mean, error = float(values.mean()), float(values.std(ddof=1)) / math.sqrt(scenarios)
     return Bound(mean, error, scenarios, "relaxation") if mean < told else Bound(told, 0.0, 0, "oracle")
-
-
-def with_exact_rays(problem: Problem) -> Problem:
-    """Return the problem under the likelihood of the rays' sampler."""
-    if problem.model.gesture_likelihood == "exact":
-        return problem
-    model = problem.model.with_changes({"gesture_likelihood": "exact"})
-    return Problem(dataclasses.replace(problem.scene, model=model))
 
 
 def closed_form_bound(problem: Problem) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -81,6 +82,13 @@ class Problem:
     def n_items(self) -> int:
         """How many items there are, |I|."""
         return len(self.scene.items)
+
+    def with_exact_rays(self) -> Problem:
+        """Return the problem under the likelihood of the rays' sampler. Raises ModelError for too many items."""
+        if self.model.gesture_likelihood == "exact":
+            return self
+        model = self.model.with_changes({"gesture_likelihood": "exact"})
+        return Problem(dataclasses.replace(self.scene, model=model))
 
     def words_by_owners(self) -> dict[tuple[int, ...], list[int]]:
         """Return the words, by index, of each set of items that own them: words of the same owners say the same."""

@@ -66,7 +66,7 @@ def test_values_after_an_answer_are_sums_over_answers(belief: list[float], about
     asked = -1 if about is None else about
     classes = with_other(classes_of(top, TABLE.breaks, PROBLEM.tables), asked, top, TABLE.breaks, PROBLEM.tables)
     own = 0.0 if about is None else belief[about]
-    found = answered_value(TABLE.values, classes, top, asked, own, rate, PROBLEM.tables)
+    found = answered_value(TABLE, classes, top, asked, own, rate, PROBLEM.tables)
     if about is None:
         assert found == pytest.approx(plain_value(belief, None))
         return
@@ -75,6 +75,15 @@ def test_values_after_an_answer_are_sums_over_answers(belief: list[float], about
         joint = [p * (true if item == about else false) for item, p in enumerate(belief)]
         expected += rate * sum(joint) * plain_value([p / sum(joint) for p in joint], about)
     assert found == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_share_of_ends_picks_the_first_item_now() -> None:
+    """By hand: one interaction in ten ends with 22.5 b1 - 12.5, whatever going on is worth."""
+    top = leading(np.array([0.43, 0.29, 0.19, 0.09]))
+    here = (1, top.b1, top.b2, SECOND, 0.0, PROBLEM.tables)
+    lasting, ending = (node_value(TABLE.values, ends, *here) for ends in (0.0, 0.1))
+    assert lasting > 22.5 * 0.43 - 12.5
+    assert ending == pytest.approx(0.9 * lasting + 0.1 * (22.5 * 0.43 - 12.5))
 
 
 def test_cells_cover_all_beliefs() -> None:
@@ -106,7 +115,7 @@ def test_the_tables_action_has_the_nodes_value(belief: list[float], asked: int |
     kind = kind_of(about, top.first, top.second)
     share = 0.0 if asked is None else belief[asked] / top.b2
     cls = 1 if {top.first, top.second} == {0, 1} else 0
-    value = node_value(TABLE.values, cls, top.b1, top.b2, kind, share, PROBLEM.tables)
+    value = node_value(TABLE.values, TABLE.ends, cls, top.b1, top.b2, kind, share, PROBLEM.tables)
     if action >= 4:
         assert action - 4 == top.first
         assert value == pytest.approx(22.5 * top.b1 - 12.5)

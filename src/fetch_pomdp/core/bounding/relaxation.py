@@ -85,7 +85,8 @@ def control(belief: Vector, asked: int, table: ValueTable, tables: Tables) -> fl
     top = leading(belief)
     share = belief[asked] / top.b2 if asked != NOBODY and top.b2 > 0.0 else 0.0
     cls = pair_class(top.first, top.second, table.breaks, tables)
-    return float(node_value(table.values, cls, top.b1, top.b2, kind_of(asked, top.first, top.second), share, tables))
+    kind = kind_of(asked, top.first, top.second)
+    return float(node_value(table.values, table.ends, cls, top.b1, top.b2, kind, share, tables))
 
 
 @compiled

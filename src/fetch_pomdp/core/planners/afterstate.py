@@ -6,6 +6,9 @@ b2 / min(b1, 1 - b1), and there is a table for each class of leading pairs (`pla
 
     V = max(pick of the first, wait + W[wait, i_r], point + max(W[ask the first], W[ask the second])).
 
+Where people leave, or the robot has to pick after so many steps, a share of the interactions ends at each node with a
+pick of the first: V becomes (1 - ends) V + ends * pick.
+
 Where i_r is neither the first nor the second item, a wait's value lies between that of an answer that can come no more
 (its belief is 0) and that of i_r being the second (its belief is b2). One table for all of these over-rated waits after
 an answered question by several points: its policies waited for ever between two twins.
@@ -33,6 +36,7 @@ class ValueTable(NamedTuple):
 
     values: Vector
     breaks: Vector
+    ends: float = 0.0  # share of the interactions that a step ends with a forced pick
 
 
 class Cell(NamedTuple):
@@ -91,12 +95,15 @@ def waited(values: Vector, cls: int, kind: int, share: float, cell: Cell) -> flo
 
 
 @inlined
-def node_value(values: Vector, cls: int, b1: float, b2: float, kind: int, share: float, tables: Tables) -> float:
+def node_value(
+    values: Vector, ends: float, cls: int, b1: float, b2: float, kind: int, share: float, tables: Tables
+) -> float:
     """Return the value of a node, V."""
     cell = cell_of(b1, b2)
-    best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * b1
-    best = max(best, tables.wait + waited(values, cls, kind, share, cell))
-    return max(best, tables.point + max(at(values, cls, ASK_FIRST, cell), at(values, cls, ASK_SECOND, cell)))
+    pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * b1
+    best = max(pick, tables.wait + waited(values, cls, kind, share, cell))
+    best = max(best, tables.point + max(at(values, cls, ASK_FIRST, cell), at(values, cls, ASK_SECOND, cell)))
+    return (1.0 - ends) * best + ends * pick
 
 
 @inlined
@@ -118,15 +125,15 @@ def with_other(classes: Classes, about: int, top: Leading, breaks: Vector, table
 
 @lean
 def answered_value(
-    values: Vector, classes: Classes, top: Leading, about: int, own: float, rate: float, tables: Tables
+    table: ValueTable, classes: Classes, top: Leading, about: int, own: float, rate: float, tables: Tables
 ) -> float:
     """Return the expected value of the nodes after an answer, or silence, about an item (Eq. 6, Table I).
 
     own: belief in the item asked about. An answer scales it against all others alike, so the leaders decide.
     """
-    cls = classes.first_second
+    values, ends, cls = table.values, table.ends, classes.first_second
     if about == NOBODY:
-        return node_value(values, cls, top.b1, top.b2, UNASKED, 0.0, tables)
+        return node_value(values, ends, cls, top.b1, top.b2, UNASKED, 0.0, tables)
     o1, o2, with_own, without = top.b1, top.b2, classes.other_first, cls
     if about == top.first:
         o1, o2, with_own, without = top.b2, top.b3, cls, classes.second_third
@@ -134,7 +141,7 @@ def answered_value(
         o2, with_own, without = top.b3, cls, classes.first_third
     share = own / top.b2 if top.b2 > 0.0 else 0.0
     kind = kind_of(about, top.first, top.second)
-    total = (1.0 - rate) * node_value(values, cls, top.b1, top.b2, kind, share, tables)
+    total = (1.0 - rate) * node_value(values, ends, cls, top.b1, top.b2, kind, share, tables)
     for answer in (YES, NO):
         for_own = tables.p_truth if answer == YES else 1.0 - tables.p_truth
         chance = for_own * own + (1.0 - for_own) * (1.0 - own)
@@ -142,11 +149,11 @@ def answered_value(
             continue
         b, q1, q2 = for_own * own / chance, (1.0 - for_own) * o1 / chance, (1.0 - for_own) * o2 / chance
         if b >= q1:
-            value = node_value(values, with_own, b, q1, FIRST, 0.0, tables)
+            value = node_value(values, ends, with_own, b, q1, FIRST, 0.0, tables)
         elif b >= q2:
-            value = node_value(values, with_own, q1, b, SECOND, 0.0, tables)
+            value = node_value(values, ends, with_own, q1, b, SECOND, 0.0, tables)
         else:
-            value = node_value(values, without, q1, q2, OTHER, b / q2, tables)
+            value = node_value(values, ends, without, q1, q2, OTHER, b / q2, tables)
         total += rate * chance * value
     return total
 

@@ -11,6 +11,7 @@ from fetch_pomdp.core.planners.afterstate import ValueTable, answered_value, cla
 from fetch_pomdp.core.planners.kernels import NOBODY
 from fetch_pomdp.core.planners.leaf import leading
 from fetch_pomdp.core.planners.outlook import DistinctWords, look, outlook_size, smoothed_mass
+from fetch_pomdp.core.planners.rehearsal import sharpened
 from fetch_pomdp.core.problem import Tables
 
 MOST_ASKED = 6  # leading items whose questions are valued
@@ -68,7 +69,7 @@ def one_pass(
             about, rate = (asked, tables.p_again) if index == len(asks) else (asks[index], tables.p_l)
             pairs = with_other(classes, about, top, table.breaks, tables)
             own = heard[about] if about != NOBODY else 0.0
-            value = answered_value(table.values, pairs, top, about, own, rate, tables)
+            value = answered_value(table, pairs, top, about, own, rate, tables)
             values[index] += chance * value
             if number >= size - rays:
                 sampled[index] += value / rays
@@ -112,10 +113,11 @@ def chosen(belief: Vector, asks: Integers, totals: Vector, squares: Vector, pass
 
 @compiled
 def step_ahead_many(
-    beliefs: Vector, asked: Integers, table: ValueTable, distinct: DistinctWords, seeds: RandomState, passes: int,
-    actions: Integers, tables: Tables,
+    beliefs: Vector, asked: Integers, power: float, table: ValueTable, distinct: DistinctWords, seeds: RandomState,
+    passes: int, actions: Integers, tables: Tables,
 ) -> None:  # fmt: skip
-    """Fill in the best action for every belief."""
+    """Fill in the best action for that power of every belief."""
     for index in range(len(beliefs)):
-        found = step_ahead(beliefs[index], asked[index], table, distinct, seeds[index], passes, tables)
+        belief = sharpened(beliefs[index], power)
+        found = step_ahead(belief, asked[index], table, distinct, seeds[index], passes, tables)
         actions[index] = found[4]

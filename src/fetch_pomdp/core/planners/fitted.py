@@ -21,15 +21,15 @@ from fetch_pomdp.core.planners.ahead import Ahead, add_passes, candidates, chose
 from fetch_pomdp.core.planners.base import Decision, pick_values, whole_number
 from fetch_pomdp.core.planners.batch import action_of, on_all_cores, one_by_one
 from fetch_pomdp.core.planners.exact import ExactAnswers
-from fetch_pomdp.core.planners.fitting import fitted
 from fetch_pomdp.core.planners.outlook import DistinctWords, distinct_words
+from fetch_pomdp.core.planners.rehearsal import sharpened
 from fetch_pomdp.core.planners.root import checked_asked
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.planners.selection import Policy, selected
+from fetch_pomdp.core.problem import Problem, Tables
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import PlannerError
 
 MOST_FITTED = 2_000  # items: more are left to ExactAnswers
-FIT_RAYS = 4  # rays of an outlook while fitting
 MOST_BELIEFS, MOST_RAYS, MOST_PASSES = 1_000_000, 10_000, 1_000_000
 CAUTION = 0.7  # share of a budget after which no pass may be expected to end
 
@@ -37,8 +37,13 @@ CAUTION = 0.7  # share of a budget after which no pass may be expected to end
 class Solution(NamedTuple):
     """What a problem is solved to."""
 
-    table: ValueTable
+    policy: Policy
     distinct: DistinctWords  # with the rays of a decision
+
+    @property
+    def table(self) -> ValueTable:
+        """The value of having acted."""
+        return self.policy.table
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +52,8 @@ class FittedValue:
 
     The value is a table over the leading pair (`planners.afterstate`), fitted by value iteration on `beliefs` beliefs a
     round (`planners.fitting`); the step sums words and answers and samples `rays` gestures, the same for all actions,
-    `passes` times. The table is kept for a problem's lifetime, and the last tables for their scenes, so a scene is
+    `passes` times. With Eq. 7's likelihood it reads a sharpened belief (`planners.selection`), and its values are those
+    of that belief. The table is kept for a problem's lifetime, and the last tables for their scenes, so a scene is
     solved once.
 
     With `budget_ms` a decision goes on with further passes while its best two kinds of action are within two standard
@@ -88,36 +94,33 @@ class FittedValue:
         started = time.perf_counter()
         if problem.n_items > MOST_FITTED:
             return ExactAnswers().decide(problem, belief, asked, rng=rng)
-        probabilities = belief.probabilities
-        about = checked_asked(probabilities, asked, problem)
-        table, distinct = solution(problem, self)
+        about = checked_asked(belief.probabilities, asked, problem)
+        known = solution(problem, self)
+        probabilities = sharpened(belief.probabilities, known.policy.power)
         seed, passes = int(rng.random() * 2.0**53), None
         if self.budget_ms is None:
-            found = step_ahead(probabilities, about, table, distinct, seed, self.passes, problem.tables)
+            found = step_ahead(probabilities, about, known.table, known.distinct, seed, self.passes, known.policy.plan)
         else:
             ends = started + CAUTION * self.budget_ms / 1e3
-            found, passes = self._refined(problem, probabilities, about, seed, ends)
+            found, passes = self._refined(known, probabilities, about, seed, ends)
         wait, point, wait_error, errors, action = found
         pick = pick_values(probabilities, problem)
         return Decision(action_of(action, problem), wait, point, pick, wait_error, errors, passes=passes)
 
-    def _refined(
-        self, problem: Problem, probabilities: Vector, about: int, seed: int, ends: float
-    ) -> tuple[Ahead, int]:
+    def _refined(self, known: Solution, probabilities: Vector, about: int, seed: int, ends: float) -> tuple[Ahead, int]:
         """Return what passes find until the best action is clear or the time is up, and how many they were."""
-        table, distinct = solution(problem, self)
-        asks, pick = candidates(probabilities), pick_values(probabilities, problem)
+        plan, asks, likeliest = known.policy.plan, candidates(probabilities), float(probabilities.max())
         totals, squares = np.zeros(len(asks) + 1), np.zeros(len(asks) + 1)
         done, more = 0, self.passes
         while True:
             before = time.perf_counter()
-            add_passes(probabilities, about, asks, table, distinct, seed, done, done + more, totals, squares,
-                       problem.tables)  # fmt: skip
+            add_passes(probabilities, about, asks, known.table, known.distinct, seed, done, done + more, totals,
+                       squares, plan)  # fmt: skip
             done += more
-            found = chosen(probabilities, asks, totals, squares, done, problem.tables)
+            found = chosen(probabilities, asks, totals, squares, done, plan)
             now = time.perf_counter()
             more = done  # doubled, as long as twice the time that half of it took is left
-            if now + 2.0 * (now - before) > ends or done + more > MOST_PASSES or not is_close(found, pick):
+            if now + 2.0 * (now - before) > ends or done + more > MOST_PASSES or not is_close(found, likeliest, plan):
                 return found, done
 
     def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:
@@ -125,23 +128,24 @@ class FittedValue:
         if problem.n_items > MOST_FITTED:
             return one_by_one(self, problem, beliefs, asked, rng)
         actions = np.empty(len(beliefs), dtype=np.int64)
-        table, distinct = solution(problem, self)
+        known = solution(problem, self)
         seeds = (rng.random(len(beliefs)) * 2.0**53).astype(np.uint64)
 
         def share(begin: int, end: int) -> None:
             part = slice(begin, end)
-            step_ahead_many(beliefs[part], asked[part], table, distinct, seeds[part], self.passes, actions[part],
-                            problem.tables)  # fmt: skip
+            step_ahead_many(beliefs[part], asked[part], known.policy.power, known.table, known.distinct, seeds[part],
+                            self.passes, actions[part], known.policy.plan)  # fmt: skip
 
         on_all_cores(share, len(beliefs))
         return actions
 
 
-def is_close(found: Ahead, pick: Vector) -> bool:
+def is_close(found: Ahead, likeliest: float, tables: Tables) -> bool:
     """Whether the best two of a wait, the best question and the best pick are within two standard errors."""
     wait, point, wait_error, errors, _ = found
+    pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * likeliest
     question = int(np.nanargmax(point))
-    ranked = sorted([(wait, wait_error), (float(point[question]), float(errors[question])), (float(pick.max()), 0.0)])
+    ranked = sorted([(wait, wait_error), (float(point[question]), float(errors[question])), (pick, 0.0)])
     (second, second_error), (best, best_error) = ranked[-2:]
     return best - second < 2.0 * math.hypot(best_error, second_error)
 
@@ -153,12 +157,11 @@ def solution(problem: Problem, planner: FittedValue) -> Solution:
     """Return what the planner knows of a problem, solved when first asked for."""
     known, key = _solutions.setdefault(problem, {}), (planner.beliefs, planner.seed, planner.rays)
     if key not in known:
-        table = _table(problem.scene, planner.beliefs, planner.seed)
-        known[key] = Solution(table, distinct_words(problem, planner.rays))
+        policy = _policy(problem.scene, planner.beliefs, planner.seed)
+        known[key] = Solution(policy, distinct_words(problem, planner.rays))
     return known[key]
 
 
 @functools.lru_cache(maxsize=32)
-def _table(scene: Scene, beliefs: int, seed: int) -> ValueTable:
-    problem = Problem(scene)
-    return fitted(problem, distinct_words(problem, FIT_RAYS), beliefs, seed)
+def _policy(scene: Scene, beliefs: int, seed: int) -> Policy:
+    return selected(Problem(scene), beliefs, seed)

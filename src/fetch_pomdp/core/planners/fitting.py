@@ -4,6 +4,9 @@ A round plays interactions with the policy of the table so far, which now and th
 belief met (`planners.outlook`), and then sweeps: Bellman backups of all beliefs met, with answers summed exactly, and
 a least-squares fit of the table to them. The fit is of an expectation, before the observation, so that the maximum over
 actions is taken of fitted values and not of noise. Second differences of the table are held small where little is met.
+
+After a round the share of the steps at which interactions are cut short is taken from the policy's own
+(`planners.rehearsal`). A share that is fixed for all tables makes robots hasty where stakes are high and nobody leaves.
 """
 
 from __future__ import annotations
@@ -35,11 +38,12 @@ from fetch_pomdp.core.planners.kernels import NOBODY, live_step
 from fetch_pomdp.core.planners.leaf import Leading, leading
 from fetch_pomdp.core.planners.outlook import DistinctWords, look, outlook_size, smoothed_mass
 from fetch_pomdp.core.planners.pairs import class_breaks, closeness, pair_class
+from fetch_pomdp.core.planners.rehearsal import LONGEST, rehearse
 from fetch_pomdp.core.planners.surface import ANCHOR, add_row, corner, smoothness
 from fetch_pomdp.core.problem import Problem, Tables
 
 ROUNDS, SWEEPS = 3, 10
-LONGEST = 30  # steps of an interaction
+REHEARSED = 500  # interactions, which show how many are cut short
 EXPLORES = 0.25  # share of the steps that explore: half of them wait, and more ask about the first than the second
 PATIENT = 0.5  # share of the interactions that pick at no belief below one drawn uniformly
 ANSWERED = 0.2  # i_r that is no leader counts as answered up to this share of b2
@@ -75,6 +79,8 @@ def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> 
         normal_matrices(nodes, lower)
         for _ in range(SWEEPS):
             sweep(table, nodes, nexts, lower, tables)
+        if number < ROUNDS - 1:
+            table = table._replace(ends=rehearse(table, 1.0, REHEARSED, seed, tables, tables).ends)
     return table
 
 
@@ -228,7 +234,7 @@ def backed_up(index: int, slot: int, table: ValueTable, nodes: Any, nexts: Any, 
             nexts["with_own"][index, number, slot],
         )  # fmt: skip
         own = float(nexts["own"][index, number, slot])
-        value = answered_value(table.values, classes, top, about, own, rate, tables)
+        value = answered_value(table, classes, top, about, own, rate, tables)
         total += float(nexts["chance"][index, number]) * value
     return total
 
