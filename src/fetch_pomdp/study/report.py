@@ -107,15 +107,18 @@ def _ends(low: float | None, high: float | None, unit: float, digits: int) -> st
 def _comparisons(found: Findings) -> list[str]:
     percent = f"{100 * (1 - found.plan.level):g}%"
     headers = ("layout", "difference", "of", "mean", f"{percent} interval", "pairs", "p of pairs", "Holm", "effect",
-               "persons", "p of persons", "Holm", "effect", "p no worse", "by ranks", "note")  # fmt: skip
+               "persons", "p of persons", "Holm", "effect", "p no worse", "by ranks")  # fmt: skip
     rows = [
         (str(row.layout), f"{row.system} − {row.other}", f"{row.measure} ({words.UNITS[row.measure]})",
          words.difference(row.difference, row.measure), words.span(row.low, row.high, row.measure),
          str(row.pairs), words.chance(row.p_pairs), words.chance(row.p_pairs_holm), _effect(row.effect_pairs),
          str(row.people), words.chance(row.p_people), words.chance(row.p_people_holm), _effect(row.effect_people),
-         words.chance(row.p_no_worse), words.chance(row.p_no_worse_ranks), row.note)
+         words.chance(row.p_no_worse), words.chance(row.p_no_worse_ranks))
         for row in found.comparisons
     ]  # fmt: skip
+    notes = [
+        f"{row.layout}, {row.system} − {row.other}, {row.measure}: {row.note}" for row in found.comparisons if row.note
+    ]
     plan = found.plan
     margins = f"{plan.margin_time:g} s and {100 * plan.margin_accuracy:g} points"
     text = (
@@ -124,7 +127,8 @@ def _comparisons(found: Findings) -> list[str]:
         f"{margins}, Student's test of persons and signed ranks of persons."
     )
     caption = f"{plan.system} against the others"
-    return [page.heading("Comparisons"), page.paragraph(text), page.grid(caption, headers, rows, 3)]
+    below = [page.points(notes)] if notes else []
+    return [page.heading("Comparisons"), page.paragraph(text), page.grid(caption, headers, rows, 3), *below]
 
 
 def _effect(value: float | None) -> str:
