@@ -32,7 +32,6 @@ from planning.uct import Style, Uct
 
 SCENES = ("ambiguous", "unambiguous")
 EXPLORATION = (5.0, 20.0, 60.0)  # of UCB1, in units of reward; a right pick and a wrong one are 22.5 apart
-LONG_EXPLORATION = {"ambiguous": 20.0, "unambiguous": 60.0}  # at a second a decision: the best with less time
 PARTICLES = 1_000
 TUNED_ON = 77  # seed of the people that thresholds are tuned on
 ROUNDS = 10
@@ -80,7 +79,7 @@ def ours(problem: Problem) -> Iterator[Contestant]:
     yield Contestant("plain NumPy sparse sampling (2, 10)", "plain NumPy", plain, 1_000)
 
 
-def theirs(problem: Problem, scene: str) -> Iterator[Contestant]:
+def theirs(problem: Problem) -> Iterator[Contestant]:
     """Yield POUCT and POMCP by style, time and exploration constant."""
     field_: tuple[tuple[Style, int, int, int], ...] = (  # style, ms a decision, particles (0: POUCT), episodes
         ("random", 10, 0, 60),
@@ -88,13 +87,14 @@ def theirs(problem: Problem, scene: str) -> Iterator[Contestant]:
         ("greedy", 100, 0, 20),
         ("aided", 10, 0, 120),
         ("aided", 100, 0, 30),
-        ("aided", 1_000, 0, 12),
+        ("aided", 1_000, 0, 18),
         ("aided", 10, PARTICLES, 60),
-        ("aided", 100, PARTICLES, 18),
+        ("aided", 100, PARTICLES, 30),
+        ("aided", 1_000, PARTICLES, 18),
     )
     for style, milliseconds, particles, episodes in field_:
         solver = "POMCP" if particles else "POUCT"
-        for exploration in EXPLORATION if milliseconds < 1_000 else (LONG_EXPLORATION[scene],):
+        for exploration in EXPLORATION:
             uct = Uct(problem, milliseconds / 1_000, exploration, style, particles)
             name = f"pomdp_py {solver}, {style}, {milliseconds:,} ms"
             rival = Contestant(name, f"{solver}, {style}", Timed(uct), episodes, milliseconds, exploration)
@@ -105,7 +105,7 @@ def contest(scene: str, share: float, seed: int, say: Callable[[str], None]) -> 
     """Play a scene with all contestants. share: of the full number of episodes."""
     problem = Problem(Scene.load(scene))
     slowest = 1_000 if share == 1.0 else 10  # ms
-    field_ = [*ours(problem), *(rival for rival in theirs(problem, scene) if rival.milliseconds <= slowest)]
+    field_ = [*ours(problem), *(rival for rival in theirs(problem) if rival.milliseconds <= slowest)]
     warm = Belief.uniform(problem.n_items)
     for rival in field_:  # compiled and loaded before the clock starts
         rival.planner.planner.decide(problem, warm, None, rng=np.random.default_rng(0))
