@@ -13,6 +13,7 @@ from fetch_pomdp.core.rays import LARGEST_EXACT
 
 FIT_RAYS = 4  # rays of an outlook while fitting
 LEARNT = (0.5, 1.0, 2.0)  # of the logarithm of the likeliest power
+LEAST_POWER = 1.05  # below it is what chance makes of 1
 MOST_REHEARSED, NUMBERS_REHEARSED = 8_000, 100_000  # interactions, and beliefs' entries in one step of all
 
 
@@ -50,7 +51,8 @@ def _rehearsed(table: ValueTable, plan: Problem, problem: Problem, seed: int) ->
     """Return a plan's policies, one a power, and what they earn."""
     count = min(MOST_REHEARSED, NUMBERS_REHEARSED // problem.n_items)
     likeliest = rehearse(table, 1.0, max(1, count // 4), seed, plan.tables, problem.tables).power
-    policies = [Policy(table, max(1.0, likeliest) ** share, plan.tables) for share in LEARNT]
+    powers = [likeliest**share for share in LEARNT] if likeliest >= LEAST_POWER else [1.0]
+    policies = [Policy(table, power, plan.tables) for power in powers]
     return [
         (policy, float(rehearse(table, policy.power, count, seed + 1, plan.tables, problem.tables).earned.mean()))
         for policy in policies
