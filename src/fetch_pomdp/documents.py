@@ -37,11 +37,15 @@ class Document:
 
 def read_text(path: str | Path, error: type[InputError]) -> str:
     """Return a UTF-8 file's text. Raises `error` for a file that is missing, unreadable or not UTF-8."""
+    return _decoded(read_raw(path, error), str(path), 1, error)
+
+
+def read_raw(path: str | Path, error: type[InputError]) -> bytes:
+    """Return a file's bytes. Raises `error` for a file that is missing or unreadable."""
     try:
-        raw = Path(path).read_bytes()
+        return Path(path).read_bytes()
     except (OSError, ValueError) as cause:
         raise error(_reason(cause), source=str(path)) from None
-    return _decoded(raw, str(path), 1, error)
 
 
 def read_toml(path: str | Path, error: type[InputError]) -> Document:
@@ -109,9 +113,14 @@ def json_lines(stream: Iterable[bytes], source: str, error: type[InputError]) ->
     Raises `error` for a line that is not UTF-8, not JSON, not an object, or repeats a field.
     """
     for number, raw in enumerate(stream, start=1):
-        text = _decoded(raw, source, number, error)
-        if text.strip():
-            yield Document(source, _json_object(text, source, number, error), lambda _, line=number: line)  # type: ignore[misc]
+        if (document := json_line(raw, source, number, error)) is not None:
+            yield document
+
+
+def json_line(raw: bytes, source: str, line: int, error: type[InputError]) -> Document | None:
+    """Return the JSON object of a line, None for an empty one. Raises `error` as `json_lines` does."""
+    text = _decoded(raw, source, line, error)
+    return Document(source, _json_object(text, source, line, error), lambda _: line) if text.strip() else None
 
 
 def _json_object(text: str, source: str, line: int, error: type[InputError]) -> dict[str, Any]:

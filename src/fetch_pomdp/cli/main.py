@@ -10,6 +10,7 @@ import typer
 from fetch_pomdp.cli.doors import export_scene
 from fetch_pomdp.cli.gap import gap
 from fetch_pomdp.cli.interact import fetch
+from fetch_pomdp.cli.logs import app as logs
 from fetch_pomdp.cli.offline import decide, filter_events, simulate
 from fetch_pomdp.cli.robocup import robocup
 from fetch_pomdp.cli.study import app as study
@@ -31,6 +32,7 @@ app.command("export")(export_scene)
 app.command()(gap)
 app.command()(robocup)
 app.add_typer(study, name="study")
+app.add_typer(logs, name="log")
 
 
 def main() -> None:

@@ -13,11 +13,15 @@ from fetch_pomdp.core.ports import Outcome, Word
 
 @dataclass(frozen=True, slots=True)
 class Observed:
-    """The robot took in an observation of a step that ended at `time` (s); words: as they were heard."""
+    """The robot took in an observation of a step that ended at `time` (s); words: as they were heard.
+
+    spoken: the words that the person really said, where somebody wrote them down; no belief reads them.
+    """
 
     observation: Observation
     words: tuple[Word, ...] = ()
     time: float | None = None
+    spoken: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -57,10 +57,8 @@ def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
 
 
 def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
-    checks.known(data, ("utterance", "words", "head", "wrist"), "field", EventError)
-    utterance = data.get("utterance")
-    if utterance is not None and not isinstance(utterance, str):
-        raise EventError(f"found {shown(utterance)}, expected text or null", field="utterance")
+    checks.known(data, ("utterance", "words", "head", "wrist", "spoken"), "field", EventError)
+    utterance, spoken = (_text(data.get(name), name) for name in ("utterance", "spoken"))
     words = _words(data.get("words"))
     if utterance is None:
         utterance = " ".join(word.text for word in words)
@@ -69,7 +67,14 @@ def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
         missing = "head" if head is None else "wrist"
         raise EventError("found none, expected head and wrist, or neither", field=missing)
     ray = None if head is None or wrist is None else Ray(head, wrist)
-    return Observed(Observation(tokenize(utterance), ray), words, time)
+    said = None if spoken is None else tokenize(spoken)
+    return Observed(Observation(tokenize(utterance), ray), words, time, said)
+
+
+def _text(value: object, field: str) -> str | None:
+    if value is not None and not isinstance(value, str):
+        raise EventError(f"found {shown(value)}, expected text or null", field=field)
+    return value
 
 
 def _words(value: object) -> tuple[Word, ...]:
@@ -136,4 +141,6 @@ def _observed_to_json(event: Observed) -> dict[str, Any]:
         ]
     if observation.ray is not None:
         fields |= {"head": list(observation.ray.head), "wrist": list(observation.ray.wrist)}
+    if event.spoken is not None:
+        fields["spoken"] = " ".join(event.spoken)
     return {"observation": fields}

@@ -16,12 +16,18 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import EventError, InputError, SceneError
 from fetch_pomdp.files.events import item_index
 
-VERSION = 1
+VERSION = 2
+READ = (1, VERSION)
+FIELDS = ("scene", "model", "rewards", "version", "planner", "seed", "target")
+STUDY_FIELDS = ("person", "layout", "paradigm", "order", "begun")  # from version 2 on
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Header:
-    """What an interaction is about: the first line of its record."""
+    """What an interaction is about: the first line of its record.
+
+    The last five fields say which trial of a study it was (`study.trial.Assignment`), where it was one.
+    """
 
     scene: Scene  # with the model and rewards in force
     scene_name: str | None = None  # of a built-in scene
@@ -29,6 +35,11 @@ class Header:
     parameters: Mapping[str, Any] = field(default_factory=dict)  # of the planner
     seed: int = 0
     target: str | None = None  # id of the item that was desired, where that is known
+    person: int | None = None
+    layout: str | None = None
+    paradigm: str | None = None  # how the robot decided, by its name in the study
+    order: int | None = None  # place among the person's trials, from 0
+    begun: float | None = None  # s, when the request began
 
     def agent(self, *, planner: str | None = None, seed: int | None = None, **parameters: Any) -> Agent:
         """Return an agent at the start of this interaction; what is given replaces what was recorded."""
@@ -41,20 +52,44 @@ class Header:
 
 def header_from_json(data: Mapping[str, Any]) -> Header:
     """Build a header from the fields of a first line."""
-    checks.known(data, ("scene", "model", "rewards", "version", "planner", "seed", "target"), "field", EventError)
+    version = data.get("version", VERSION)
+    if type(version) is not int or version not in READ:
+        raise EventError(f"found {shown(version)}, expected {' or '.join(map(str, READ))}", field="version")
+    checks.known(data, FIELDS if version == 1 else FIELDS + STUDY_FIELDS, "field", EventError)
     checks.required(data, ("scene",), EventError)
-    if type(data.get("version", VERSION)) is not int or data.get("version", VERSION) != VERSION:
-        raise EventError(f"found {shown(data['version'])}, expected {VERSION}", field="version")
     scene = _with_changes(_scene(data["scene"]), data)
     planner, parameters = _planner(data.get("planner", DEFAULT))
-    seed = data.get("seed", 0)
-    if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**63:
-        raise EventError(f"found {shown(seed)}, expected a whole number from 0", field="seed")
     target = data.get("target")
     if target is not None:
         item_index(target, scene, "target")
-    name = data["scene"] if isinstance(data["scene"], str) else None
-    return Header(scene=scene, scene_name=name, planner=planner, parameters=parameters, seed=seed, target=target)
+    return Header(
+        scene=scene,
+        scene_name=data["scene"] if isinstance(data["scene"], str) else None,
+        planner=planner,
+        parameters=parameters,
+        seed=_whole(data.get("seed", 0), "seed"),
+        target=target,
+        **_trial(data),
+    )
+
+
+def _trial(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields that say which trial of a study it was."""
+    found = {name: data[name] for name in STUDY_FIELDS if data.get(name) is not None}
+    for name in found:
+        if name in {"person", "order"}:
+            _whole(found[name], name)
+        elif name == "begun":
+            found[name] = checks.number(found[name], name, "a time in seconds", EventError)
+        else:
+            checks.text(found[name], name, "a name that is not empty", EventError)
+    return found
+
+
+def _whole(value: object, field: str) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < 2**63:
+        raise EventError(f"found {shown(value)}, expected a whole number from 0", field=field)
+    return value
 
 
 def _scene(value: object) -> Scene:
@@ -103,6 +138,5 @@ def header_to_json(header: Header) -> dict[str, Any]:
             fields[section] = changes
     fields["planner"] = {"name": header.planner, **header.parameters} if header.parameters else header.planner
     fields["seed"] = header.seed
-    if header.target is not None:
-        fields["target"] = header.target
-    return fields
+    trial = {name: getattr(header, name) for name in ("target", *STUDY_FIELDS)}
+    return fields | {name: value for name, value in trial.items() if value is not None}

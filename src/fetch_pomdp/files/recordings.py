@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self, TextIO
 
-from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.events import Acted, Event
-from fetch_pomdp.documents import Document, read_json_lines
+from fetch_pomdp.core.events import Event
+from fetch_pomdp.documents import Document
 from fetch_pomdp.errors import EventError
-from fetch_pomdp.files.events import event_from_json, event_to_json
-from fetch_pomdp.files.header import Header, header_from_json, header_to_json
+from fetch_pomdp.files.events import event_to_json
+from fetch_pomdp.files.header import Header, header_to_json
+from fetch_pomdp.files.scanning import ends, scanned
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,11 +24,12 @@ class Recording:
     header: Header
     events: tuple[Event, ...]
     documents: tuple[Document, ...]  # the lines of the events
+    torn: int | None = None  # number of a last line that a kill left half-written; it is left out
 
     @property
     def over(self) -> bool:
         """Whether an item was handed over."""
-        return any(_ends(event) for event in self.events)
+        return any(ends(event) for event in self.events)
 
     def replay(self, agent: Agent) -> Iterator[Event]:
         """Let an agent live through the interaction; yield each event after the agent has taken it in.
@@ -74,22 +75,11 @@ class EventLog:
 
 
 def read_recording(path: str | Path) -> Recording:
-    """Read a recorded interaction. Raises InputError, with file, line and field, for what cannot be one."""
-    documents = read_json_lines(path, EventError)
-    first = next(documents, None)
-    if first is None:
-        raise EventError("found an empty file, expected a first line with the scene", source=str(path))
-    header = first.build(header_from_json)
-    events: list[Event] = []
-    lines: list[Document] = []
-    for document in documents:
-        if events and _ends(events[-1]):
-            found = "found an event after a pick that was done, expected the end of the interaction"
-            raise EventError(found, source=document.source, line=document.line_of(""))
-        events.append(document.build(lambda data: event_from_json(data, header.scene)))
-        lines.append(document)
-    return Recording(header, tuple(events), tuple(lines))
+    """Read a recorded interaction. Raises InputError, with file, line and field, for what cannot be one.
 
-
-def _ends(event: Event) -> bool:
-    return isinstance(event, Acted) and event.done and isinstance(event.action, Pick)
+    A last line that was not written to its end is left out: whoever wrote it was killed there.
+    """
+    found = scanned(path)
+    if found.faults or found.header is None:
+        raise found.faults[0]
+    return Recording(found.header, found.events, found.documents, found.torn)
