@@ -16,13 +16,12 @@ from numpy.random import Generator
 from rich.console import Console
 from rich.table import Table
 
-from fetch_pomdp.cli.options import Json, SceneName, Seed, as_json
+from fetch_pomdp.cli.options import Json, ModelFile, SceneName, Seed, as_json, loaded
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.bounds import Bound, upper_bound
 from fetch_pomdp.core.planners.base import Decision, Planner, PreparedPlanner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import run_episode, simulate
 
 COMPARED = (DEFAULT, "sparse", "never", "always")
@@ -72,6 +71,7 @@ def gap(
     planner: Planners = None,
     episodes: Annotated[int, typer.Option(min=2, help="Interactions to play for each planner.")] = 50_000,
     scenarios: Annotated[int, typer.Option(min=2, help="Scenarios of the upper bound.")] = 1_000,
+    model: ModelFile = None,
     seed: Seed = None,
     json_lines: Json = False,
 ) -> None:
@@ -80,7 +80,7 @@ def gap(
     No policy can have a mean return above the upper bound, up to the bound's own sampling error.
     """
     chosen = {name: planner_named(name) for name in planner or COMPARED}
-    problem = Problem(Scene.load(scene))
+    problem = Problem(loaded(scene, model))
     times = {name: timed(one, problem) for name, one in chosen.items()}
     begin = time.perf_counter()
     bound = upper_bound(problem, scenarios, seed or 0)

@@ -17,7 +17,7 @@ from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
 from fetch_pomdp.cli.explain import decision_to_json
-from fetch_pomdp.cli.options import Budget, Depth, Json, PlannerName, SceneName, Seed, Width, warm_up
+from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, loaded, warm_up
 from fetch_pomdp.cli.show import belief_to_json, show_event
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
@@ -45,6 +45,11 @@ Skeleton = Annotated[
 ]
 Log = Annotated[Path | None, typer.Option(metavar="OUT.jsonl", help="Write what happens to a new file, as it happens.")]
 
+Target = Annotated[str | None, typer.Option(metavar="ID", help="For the log: the item that is really desired.")]
+Person = Annotated[int | None, typer.Option(min=0, help="For the log: number of the person.")]
+Order = Annotated[int | None, typer.Option(min=0, help="For the log: place among the person's trials, from 0.")]
+Paradigm = Annotated[str | None, typer.Option(metavar="NAME", help="For the log: the study's name of this robot.")]
+
 
 def fetch(
     scene: SceneName,
@@ -56,7 +61,12 @@ def fetch(
     width: Width = None,
     budget: Budget = None,
     seed: Seed = None,
+    model: ModelFile = None,
     log: Log = None,
+    target: Target = None,
+    person: Person = None,
+    order: Order = None,
+    paradigm: Paradigm = None,
     json_lines: Json = False,
 ) -> None:
     """Run one whole interaction: hear, see, decide, until an item is handed over.
@@ -64,12 +74,17 @@ def fetch(
     With --audio or --skeleton the person is a recording or a stream. With neither you are the person: type what you
     would say, with @item for an item that you point at.
     """
-    table = Scene.load(scene)
+    table = loaded(scene, model)
     parameters = {
         name: value for name, value in (("depth", depth), ("width", width), ("budget_ms", budget)) if value is not None
     }
     named = scene if scene in LAYOUTS else None
-    header = Header(scene=table, scene_name=named, planner=planner or DEFAULT, parameters=parameters, seed=seed or 0)
+    if target is not None:
+        table.index(target, "target")
+    header = Header(
+        scene=table, scene_name=named, planner=planner or DEFAULT, parameters=parameters, seed=seed or 0,
+        target=target, person=person, order=order, paradigm=paradigm,
+    )  # fmt: skip
     agent = header.agent()
     console = Console(highlight=False, stderr=json_lines)
     with contextlib.ExitStack() as open_files:

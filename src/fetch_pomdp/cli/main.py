@@ -7,6 +7,7 @@ import sys
 
 import typer
 
+from fetch_pomdp.cli.calibrate import calibrate
 from fetch_pomdp.cli.doors import export_scene
 from fetch_pomdp.cli.gap import gap
 from fetch_pomdp.cli.interact import fetch
@@ -33,6 +34,7 @@ app.command()(gap)
 app.command()(robocup)
 app.add_typer(study, name="study")
 app.add_typer(logs, name="log")
+app.command()(calibrate)
 
 
 def main() -> None:

@@ -16,39 +16,47 @@ from fetch_pomdp.cli.options import (
     Budget,
     Depth,
     Json,
+    ModelFile,
     PlannerName,
     SceneName,
     Seed,
     Width,
     as_json,
     built_planner,
+    loaded,
     warm_up,
 )
 from fetch_pomdp.cli.show import belief_to_json, show_event
 from fetch_pomdp.core.events import Observed
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import simulate as simulated
 from fetch_pomdp.errors import EventError
+from fetch_pomdp.files.header import Header
+from fetch_pomdp.files.models import with_model
 from fetch_pomdp.files.recordings import read_recording
 
 Events = Annotated[Path, typer.Argument(metavar="EVENTS.jsonl", help="A recorded interaction, one JSON object a line.")]
 
 
-def filter_events(events: Events, json_lines: Json = False) -> None:
+def filter_events(events: Events, model: ModelFile = None, json_lines: Json = False) -> None:
     """Print the belief after every observation of a recorded interaction.
 
     On a terminal as bars; with --json, or into a file or pipe, one JSON object a line:
     {"belief": {ID: probability, ...}, "asked": ID or null}.
     """
     recording = read_recording(events)
-    agent = recording.header.agent()
+    agent = _under(recording.header, model).agent()
     console = Console(highlight=False)
     for event in recording.replay(agent):
         if not as_json(json_lines):
             show_event(event, agent, console)
         elif isinstance(event, Observed):
             print(json.dumps(belief_to_json(agent), ensure_ascii=False))
+
+
+def _under(header: Header, model: Path | None) -> Header:
+    """Return a header with the parameters of a model file, if there is one."""
+    return header if model is None else dataclasses.replace(header, scene=with_model(header.scene, model))
 
 
 def decide(
@@ -58,6 +66,7 @@ def decide(
     width: Width = None,
     budget: Budget = None,
     seed: Seed = None,
+    model: ModelFile = None,
     explain: Annotated[bool, typer.Option("--explain", help="On a terminal: the numbers behind it too.")] = False,
     json_lines: Json = False,
 ) -> None:
@@ -71,7 +80,8 @@ def decide(
         raise EventError(
             "found a pick that was done, expected an interaction that is still going on", source=str(events)
         )
-    agent = recording.header.agent(planner=planner, seed=seed, depth=depth, width=width, budget_ms=budget)
+    header = _under(recording.header, model)
+    agent = header.agent(planner=planner, seed=seed, depth=depth, width=width, budget_ms=budget)
     for _ in recording.replay(agent):
         pass
     warm_up(agent.planner, agent.problem)
@@ -89,6 +99,7 @@ def simulate(
     width: Width = None,
     episodes: Annotated[int, typer.Option(min=1, help="How many interactions to play.")] = 10_000,
     seed: Seed = None,
+    model: ModelFile = None,
     json_lines: Json = False,
 ) -> None:
     """Play interactions with a person sampled from the model itself, and print how well the planner did.
@@ -96,7 +107,7 @@ def simulate(
     The person says one word of the scene a step, points now and then, and answers questions. Each item is the desired
     one equally often; the same seed gives the same people to every planner.
     """
-    problem = Problem(Scene.load(scene))
+    problem = Problem(loaded(scene, model))
     chosen = built_planner(planner, depth=depth, width=width)
     warm_up(chosen, problem)
     summary = dataclasses.asdict(simulated(problem, chosen, episodes, seed or 0))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import threading
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -13,6 +14,8 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Planner, PreparedPlanner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.files.models import with_model
 
 SceneName = Annotated[
     str, typer.Argument(metavar="SCENE", help="ambiguous, unambiguous, or the path of a TOML file (docs/scenes.md).")
@@ -24,6 +27,12 @@ Budget = Annotated[
     float | None,
     typer.Option("--budget", metavar="MS", help="Milliseconds a decision may take, for planners that refine."),
 ]
+ModelFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--model", metavar="MODEL.toml", help="Parameters in place of the scene's, as `calibrate` writes them."
+    ),
+]
 Seed = Annotated[int | None, typer.Option(min=0, help="The same seed gives the same result.  [default: 0]")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 
@@ -33,6 +42,12 @@ PATIENCE = 1.5  # s before a user is told why nothing happens
 def built_planner(name: str | None, **parameters: Any) -> Planner:
     """Return a planner by name, with the parameters that were given."""
     return planner_named(name or DEFAULT, **parameters)
+
+
+def loaded(scene: str, model: Path | None) -> Scene:
+    """Return a scene by name or path, with the parameters of a model file if there is one."""
+    table = Scene.load(scene)
+    return table if model is None else with_model(table, model)
 
 
 def as_json(asked: bool) -> bool:

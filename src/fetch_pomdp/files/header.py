@@ -76,13 +76,13 @@ def header_from_json(data: Mapping[str, Any]) -> Header:
 def _trial(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the fields that say which trial of a study it was."""
     found = {name: data[name] for name in STUDY_FIELDS if data.get(name) is not None}
-    for name in found:
+    for name, value in found.items():
         if name in {"person", "order"}:
-            _whole(found[name], name)
+            _whole(value, name)
         elif name == "begun":
-            found[name] = checks.number(found[name], name, "a time in seconds", EventError)
+            found[name] = checks.number(value, name, "a time in seconds", EventError)
         else:
-            checks.text(found[name], name, "a name that is not empty", EventError)
+            checks.text(value, name, "a name that is not empty", EventError)
     return found
 
 

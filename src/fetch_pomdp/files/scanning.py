@@ -40,11 +40,12 @@ def scanned(path: str | Path) -> Scan:
         return Scan(None, (), (), tuple(faults), torn)
     header = _header(lines[0], faults)
     scene_known = not any(_first(fault.field) == "scene" for fault in faults)
-    events: list[Event] = []
-    documents: list[Document] = []
-    for document in lines[1:] if header is not None else ():
+    if header is None:
+        return Scan(None, (), (), tuple(faults), torn)
+    scene, events, documents = header.scene, list[Event](), list[Document]()
+    for document in lines[1:]:
         found: list[InputError] = []
-        event = _built(document, lambda data: event_from_json(data, header.scene), found)
+        event = _built(document, lambda data: event_from_json(data, scene), found)
         faults += [fault for fault in found if scene_known or fault.field != "item"]
         if events and ends(events[-1]):
             after = "found an event after a pick that was done, expected the end of the interaction"

@@ -111,11 +111,11 @@ def records_of(interactions: Sequence[Interaction]) -> Records:
                 cases.append(case)
             numbers.append((number, person))
     pairs = np.array(numbers, dtype=np.int64).reshape(-1, 2)
-    modalities = (
+    seen, named, answered = (
         Modality(tuple(scenes), *_distinct(cases), judge)
         for cases, judge in zip(kinds, (pointing, naming, answering), strict=True)
     )
-    return Records(*modalities, pairs[:, 0], pairs[:, 1])
+    return Records(seen, named, answered, pairs[:, 0], pairs[:, 1])
 
 
 def _cases(step: Step, scene: int, desired: int, problem: Problem) -> tuple[Case, Case, Case]:

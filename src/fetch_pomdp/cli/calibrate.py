@@ -1,0 +1,153 @@
+"""The command calibrate: the model's parameters from recorded interactions."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from fetch_pomdp.cli.options import Json, Seed, as_json
+from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
+from fetch_pomdp.core.simulation import Summary
+from fetch_pomdp.files.models import write_model
+from fetch_pomdp.files.recordings import read_recording
+from fetch_pomdp.study.calibrate import calibration
+from fetch_pomdp.study.calibrate.calibration import Calibration
+from fetch_pomdp.study.calibrate.estimate import Estimate
+from fetch_pomdp.study.calibrate.limits import Limit, limits
+from fetch_pomdp.study.calibrate.steps import Interaction, interaction_of
+
+Limits = tuple[Summary, tuple[Limit, ...]]
+MOST_CONFUSED = 10  # words said, in the table
+
+Logs = Annotated[
+    list[Path], typer.Argument(metavar="LOG...", help="Recorded interactions with `target` (docs/events.md).")
+]
+Out = Annotated[Path | None, typer.Option(metavar="MODEL.toml", help="Write a new model file, for --model.")]
+Episodes = Annotated[int, typer.Option(min=0, help="Simulated interactions for what limits accuracy; 0 leaves it out.")]
+
+
+def calibrate(
+    logs: Logs, out: Out = None, episodes: Episodes = 20_000, seed: Seed = None, json_lines: Json = False
+) -> None:
+    """Estimate the model's parameters from interactions whose desired items are known, with 90 % intervals.
+
+    For all people together and for each, if the logs say who it was. See docs/calibrate.md.
+    """
+    interactions = [_read(path) for path in logs]
+    found = calibration.calibrate(interactions)
+    people = calibration.by_person(interactions) if found.people > 1 else {}
+    limiting = _limits(interactions, found, episodes, seed or 0) if episodes else {}
+    if out is not None:
+        _write(out, found)
+    if as_json(json_lines):
+        print(json.dumps(_to_json(found, people, limiting), ensure_ascii=False))
+        return
+    _show(found, people, limiting, Console(highlight=False))
+
+
+def _read(path: Path) -> Interaction:
+    recording = read_recording(path)
+    return interaction_of(recording.header, recording.events, str(path))
+
+
+def _limits(interactions: list[Interaction], found: Calibration, episodes: int, seed: int) -> dict[str, Limits]:
+    """Return what limits accuracy on each table of the logs; the built-in ones are named, others numbered."""
+    scenes = list(dict.fromkeys(one.scene for one in interactions))
+    planner = planner_named(DEFAULT)
+    return {
+        f"table {number}": limits(scene, found.changes(), planner, episodes=episodes, seed=seed)
+        for number, scene in enumerate(scenes, start=1)
+    }
+
+
+def _write(out: Path, found: Calibration) -> None:
+    comments = [
+        f"Fitted to {found.interactions} interactions with {found.people} people; 90 % intervals (docs/calibrate.md).",
+        *(
+            f"{one.name} {one.value:.4f} rad, {one.low:.4f} to {one.high:.4f}: the model has none."
+            for one in found.bias
+        ),
+        *(f"{name} is not bounded from both sides: no {what}." for name, what in found.unknown().items()),
+    ]
+    told = {one.name: one for one in found.estimates if one.known != "none"}
+    write_model(out, comments, {name: (one.value, _range(one)) for name, one in told.items()})
+
+
+def _range(one: Estimate) -> str:
+    return f"{one.low:.4g} to {one.high:.4g}{' ' + one.unit if one.unit else ''}"
+
+
+def _to_json(found: Calibration, people: Mapping[str, Calibration], limiting: Mapping[str, Limits]) -> dict[str, Any]:
+    return {
+        **_one_to_json(found),
+        "each": {name: _one_to_json(one) for name, one in people.items()},
+        "limits": {
+            scene: {"base": dataclasses.asdict(base), "ideal": [dataclasses.asdict(limit) for limit in ordered]}
+            for scene, (base, ordered) in limiting.items()
+        },
+    }
+
+
+def _one_to_json(found: Calibration) -> dict[str, Any]:
+    return {
+        "interactions": found.interactions,
+        "people": found.people,
+        "steps": found.steps,
+        "estimates": {one.name: dataclasses.asdict(one) for one in found.estimates},
+        "bias": {one.name: dataclasses.asdict(one) for one in found.bias},
+        "unknown": found.unknown(),
+        "confusion": found.confusion.rows(),
+    }
+
+
+def _show(
+    found: Calibration, people: Mapping[str, Calibration], limiting: Mapping[str, Limits], console: Console
+) -> None:
+    console.print(f"{found.interactions} interactions with {found.people} people, {found.steps} steps")
+    table = Table("parameter", "value", "90 % interval", "the logs bound it", box=None, padding=(0, 2, 0, 0))
+    for one in found.estimates:
+        bounded = {"both": "", "none": "not at all", "low": "from below only", "high": "from above only"}[one.known]
+        table.add_row(one.name, f"{one.value:.4g} {one.unit}", f"{one.low:.4g} to {one.high:.4g}", bounded)
+    for offset in found.bias:
+        table.add_row(offset.name, f"{offset.value:.4g} rad", f"{offset.low:.4g} to {offset.high:.4g}", "")
+    console.print(table)
+    for name, what in found.unknown().items():
+        console.print(f"{name}: too little in the logs of {what}")
+    if people:
+        console.print(_each(people))
+    for scene, (base, ordered) in limiting.items():
+        best = ordered[0]
+        console.print(f"\n{escape(scene)}: {base.accuracy:.1%} right in simulation; {best.name} limits it most")
+        for limit in ordered:
+            ideal = f"  {limit.name} {limit.ideal:g}: {100 * limit.accuracy:+.2f} points right"
+            console.print(f"{ideal}, {limit.mean_return:+.2f} return, {limit.steps:+.2f} steps")
+    _show_confusion(found, console)
+
+
+def _each(people: Mapping[str, Calibration]) -> Table:
+    first = next(iter(people.values()))
+    table = Table("person", "interactions", *(one.name for one in first.estimates), box=None, padding=(0, 2, 0, 0))
+    for name, one in people.items():
+        table.add_row(
+            escape(name or "unnamed"),
+            str(one.interactions),
+            *(f"{each.value:.3g} ({_range(each)})" for each in one.estimates),
+        )
+    return table
+
+
+def _show_confusion(found: Calibration, console: Console) -> None:
+    if not found.confusion.said:
+        return
+    console.print(f"\n{found.confusion.said} words said, {found.confusion.word_error:.1%} word error; heard for each:")
+    for said, heard in list(found.confusion.rows().items())[:MOST_CONFUSED]:
+        shares = ", ".join(f"{word or 'nothing'} {share:.0%}" for word, share in heard.items())
+        console.print(f"  {escape(said or 'nothing')}: {escape(shares)}")

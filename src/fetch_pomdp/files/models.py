@@ -1,0 +1,50 @@
+"""Model files: the parameters and rewards of a scene file alone, for any scene."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from fetch_pomdp import checks
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.documents import read_toml
+from fetch_pomdp.errors import InputError, ModelError
+
+
+def with_model(scene: Scene, path: str | Path) -> Scene:
+    """Return a scene under the [model] and [rewards] of a TOML file.
+
+    Raises ModelError, with file, line and field, for what is no model.
+    """
+
+    def changed(data: Mapping[str, Any]) -> Scene:
+        checks.known(data, ("model", "rewards"), "table", ModelError)
+        try:
+            section = "model"
+            model = scene.model.with_changes(checks.mapping(data.get("model", {}), "", ModelError))
+            section = "rewards"
+            rewards = scene.rewards.with_changes(checks.mapping(data.get("rewards", {}), "", ModelError))
+        except InputError as error:
+            raise error.within(section) from None
+        return dataclasses.replace(scene, model=model, rewards=rewards)
+
+    return read_toml(path, ModelError).build(changed)
+
+
+def write_model(path: str | Path, comments: Sequence[str], values: Mapping[str, tuple[float, str]]) -> None:
+    """Write a model file: comments first, then each parameter with a comment of its own.
+
+    Raises ModelError if the file exists or cannot be written.
+    """
+    lines = [f"# {comment}" for comment in comments] + ["[model]"]
+    lines += [f"{name} = {value!r}  # {comment}" for name, (value, comment) in values.items()]
+    try:
+        with Path(path).open("x", encoding="utf-8") as stream:
+            stream.write("\n".join(lines) + "\n")
+    except FileExistsError:
+        raise ModelError("found a file there already, expected a new one", source=str(path)) from None
+    except (OSError, ValueError) as cause:
+        reason = getattr(cause, "strerror", None) or cause
+        raise ModelError(f"cannot be written: {reason}, expected a folder for it", source=str(path)) from None
