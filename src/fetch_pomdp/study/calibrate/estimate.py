@@ -22,7 +22,7 @@ from fetch_pomdp.study.libraries import load
 LEVEL = 0.9
 FALL = 1.35  # of the log-likelihood towards an end of a line, half the 90 % quantile of chi-squared: less tells nothing
 STEP = 0.02  # on a line, of numeric derivatives
-GRID = 13  # places on a line, of the coarse search
+GRID = 9  # places on a line, of the coarse search
 LEAST = 1e-3  # information that every line is held to have
 FEW = 10.0  # pieces of information, below which the scores' variance is not trusted to be smaller than the model's
 ENOUGH_PEOPLE = 8  # below it, interactions are the independent pieces
@@ -177,7 +177,7 @@ def _limit(log_posterior: Callable[[Vector], float], path: _Path, side: int, dro
     far = begin + sign * min(reach, abs(end - begin))
     if (end - begin) * sign <= 0 or height(far) > 0:
         return end
-    return float(optimize.brentq(height, begin, far, xtol=1e-4))
+    return float(optimize.brentq(height, begin, far, xtol=1e-3))
 
 
 def _estimate(
