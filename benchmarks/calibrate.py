@@ -2,12 +2,13 @@
 
     python benchmarks/calibrate.py [--sets N] [--only KIND]  # 25 minutes of one core
 
-Sets of simulated logs are fitted, and it is counted how often each interval holds the true value. A set is of 16 people
-with 12 interactions each, half of the people at either of the paper's tables, or of one person with 36. Kinds of people:
+Sets of simulated logs are fitted, and it is counted how often each interval holds the true value. A set is of 16
+people with 12 interactions each, half of the people at either of the paper's tables, or of one person with 36:
 
-- model: drawn from the model itself, with parameters drawn anew for each set; those are the true values.
-- other: of `study.people`, who are not the model's story. The true values are those of the model nearest to them, which
-  a fit to 1,000 other people gives.
+- model: people drawn from the model itself, with parameters drawn anew for each set; those are the true values.
+- alone: one such person.
+- other: people of `study.people`, who are not the model's story. The true values are those of the model nearest to
+  them, which a fit to 800 other people gives.
 
 Saves benchmarks/results/calibrate.json, and the table of docs/calibrate.md between its markers.
 """
@@ -23,6 +24,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from fetch_pomdp.study.encounter import encounter
+from fetch_pomdp.study.people.parameters import People
 from numpy.random import Generator
 
 from fetch_pomdp.core.agent import Agent
@@ -34,8 +37,6 @@ from fetch_pomdp.study.calibrate.calibration import Calibration, calibrate
 from fetch_pomdp.study.calibrate.modelled import modelled
 from fetch_pomdp.study.calibrate.steps import Interaction
 from fetch_pomdp.study.clock import Clock
-from fetch_pomdp.study.encounter import encounter
-from fetch_pomdp.study.people.parameters import People
 
 ROOT = Path(__file__).parent.parent
 RESULT = ROOT / "benchmarks" / "results" / "calibrate.json"
@@ -43,7 +44,7 @@ PAGE = ROOT / "docs" / "calibrate.md"
 BEGIN, END = "<!-- coverage -->\n", "<!-- end of coverage -->\n"
 SCENES = (Scene.load("ambiguous"), Scene.load("unambiguous"))
 ROBOT = Threshold()
-PEOPLE, TRIALS, ALONE, MANY = 16, 12, 36, 1000
+PEOPLE, TRIALS, ALONE, MANY = 16, 12, 36, 800
 KINDS = {"model": "model's people, 16 x 12", "alone": "one of the model's people, 36", "other": "other people, 16 x 12"}
 
 Truth = Mapping[str, float]
@@ -147,7 +148,9 @@ def summary(sets: list[dict[str, dict[str, Any]]]) -> dict[str, dict[str, float]
 
 def page(results: Mapping[str, Mapping[str, Mapping[str, float]]]) -> str:
     """Return the table as Markdown."""
-    lines = ["| people | parameter | sets | covered | bounded on both sides | median width | mean truth | mean estimate |"]
+    lines = [
+        "| people | parameter | sets | covered | bounded on both sides | median width | mean truth | mean estimate |"
+    ]
     lines += ["|---|---|---|---|---|---|---|---|"]
     for kind, table in results.items():
         for name, row in table.items():

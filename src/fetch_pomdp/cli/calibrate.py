@@ -14,7 +14,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from fetch_pomdp.cli.options import Json, Seed, as_json
+from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
+from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import Summary
 from fetch_pomdp.files.models import write_model
 from fetch_pomdp.files.recordings import read_recording
@@ -63,9 +65,14 @@ def _limits(interactions: list[Interaction], found: Calibration, episodes: int, 
     scenes = list(dict.fromkeys(one.scene for one in interactions))
     planner = planner_named(DEFAULT)
     return {
-        f"table {number}": limits(scene, found.changes(), planner, episodes=episodes, seed=seed)
+        _named(scene, number): limits(scene, found.changes(), planner, episodes=episodes, seed=seed)
         for number, scene in enumerate(scenes, start=1)
     }
+
+
+def _named(scene: Scene, number: int) -> str:
+    built_in = (name for name in LAYOUTS if Scene.load(name) == scene)
+    return next(built_in, f"table {number}")
 
 
 def _write(out: Path, found: Calibration) -> None:
@@ -75,7 +82,7 @@ def _write(out: Path, found: Calibration) -> None:
             f"{one.name} {one.value:.4f} rad, {one.low:.4f} to {one.high:.4f}: the model has none."
             for one in found.bias
         ),
-        *(f"{name} is not bounded from both sides: no {what}." for name, what in found.unknown().items()),
+        *(f"{name} is not bounded from both sides: that would take {what}." for name, what in found.unknown().items()),
     ]
     told = {one.name: one for one in found.estimates if one.known != "none"}
     write_model(out, comments, {name: (one.value, _range(one)) for name, one in told.items()})
@@ -120,7 +127,7 @@ def _show(
         table.add_row(offset.name, f"{offset.value:.4g} rad", f"{offset.low:.4g} to {offset.high:.4g}", "")
     console.print(table)
     for name, what in found.unknown().items():
-        console.print(f"{name}: too little in the logs of {what}")
+        console.print(f"{name} is not bounded from both sides: that would take {what}")
     if people:
         console.print(_each(people))
     for scene, (base, ordered) in limiting.items():

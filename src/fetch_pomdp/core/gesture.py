@@ -63,11 +63,15 @@ def log_likelihood(ray: Ray | None, problem: Problem) -> Vector:
     if ray is not None and problem.model.p_g > 0.0:
         found = angles(ray, problem)
         if found.min() <= problem.model.gesture_threshold:
-            return _log_density(found, problem)
+            return log_density(found, problem)
     return np.log(problem.tables.null_chance)
 
 
-def _log_density(found: Vector, problem: Problem) -> Vector:
+def log_density(found: Vector, problem: Problem) -> Vector:
+    """Log density of a ray that points, at each of some angles (rad) from the desired item (Eq. 7, upper case).
+
+    Per radian for "eq7" and per steradian for "exact"; p_g above 0. found: (n,). Returns (n,).
+    """
     model = problem.model
     normal = math.log(model.p_g) - 0.5 * (found / model.sigma) ** 2 - math.log(model.sigma * math.sqrt(math.tau))
     if model.gesture_likelihood == "eq7":

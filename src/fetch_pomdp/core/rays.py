@@ -9,7 +9,7 @@ import numpy as np
 from fetch_pomdp.core.compiled import Vector, compiled, lean
 
 LARGEST_EXACT = 1_000  # items: `miss_chances` takes time quadratic in their number
-_NODES = 48  # of the quadrature over the off-axis angle
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)  # quadrature over the off-axis angle
 
 
 def unit_directions(head: Vector, positions: Vector) -> Vector:
@@ -75,10 +75,9 @@ def miss_chances(directions: Vector, sigma: float, threshold: float) -> Vector:
     other items cover are a union of arcs, measured exactly. directions: (n, 3) unit; rad. Returns (n,).
     """
     end = min(math.pi, threshold + 9.0 * sigma)
-    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    angles = threshold + (end - threshold) * (nodes + 1) / 2
+    angles = threshold + (end - threshold) * (_NODES + 1) / 2
     density = 2 * np.exp(-0.5 * (angles / sigma) ** 2) / (sigma * math.sqrt(math.tau))
-    return _uncovered(directions, angles, density * weights * (end - threshold) / 2, threshold)
+    return _uncovered(directions, angles, density * _WEIGHTS * (end - threshold) / 2, threshold)
 
 
 @compiled

@@ -17,6 +17,7 @@ from fetch_pomdp.files.events import event_from_json
 from fetch_pomdp.files.header import Header, header_from_json
 
 Made = TypeVar("Made")
+ANCHORS = frozenset({"action", "observation"})  # without them a line is another line
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,14 +39,16 @@ def scanned(path: str | Path) -> Scan:
         if not faults:
             faults.append(EventError("found an empty file, expected a first line with the scene", source=str(path)))
         return Scan(None, (), (), tuple(faults), torn)
-    header = _header(lines[0], faults)
-    scene_known = not any(_first(fault.field) == "scene" for fault in faults)
+    found: list[InputError] = []
+    header = _built(lines[0], header_from_json, found, {"scene": next(iter(LAYOUTS))})
+    scene_known = not any(_first(fault.field) == "scene" for fault in found)
+    faults += [fault for fault in found if scene_known or fault.field != "target"]
     if header is None:
         return Scan(None, (), (), tuple(faults), torn)
     scene, events, documents = header.scene, list[Event](), list[Document]()
     for document in lines[1:]:
-        found: list[InputError] = []
-        event = _built(document, lambda data: event_from_json(data, scene), found)
+        found = []
+        event = _built(document, lambda data: event_from_json(data, scene), found, {"item": scene.items[0].id})
         faults += [fault for fault in found if scene_known or fault.field != "item"]
         if events and ends(events[-1]):
             after = "found an event after a pick that was done, expected the end of the interaction"
@@ -83,21 +86,16 @@ def _lines(path: str | Path, faults: list[InputError]) -> tuple[list[Document], 
     return documents, None
 
 
-def _header(document: Document, faults: list[InputError]) -> Header | None:
-    """Return the header, with a built-in scene in the place of one that is none."""
-    found: list[InputError] = []
-    header = _built(document, header_from_json, found)
-    if header is None and any(_first(fault.field) == "scene" for fault in found):
-        stand_in = {**document.data, "scene": next(iter(LAYOUTS)), "target": None}
-        others: list[InputError] = []
-        header = _built(Document(document.source, stand_in, document.line_of), header_from_json, others)
-        found += [fault for fault in others if str(fault) not in set(map(str, found))]
-    faults += found
-    return header
+def _built(
+    document: Document,
+    make: Callable[[Mapping[str, Any]], Made],
+    faults: list[InputError],
+    stand_ins: Mapping[str, Any],
+) -> Made | None:
+    """Return what `make` builds of a line; what it refuses is noted, and left out or stood in for, until it takes it.
 
-
-def _built(document: Document, make: Callable[[Mapping[str, Any]], Made], faults: list[InputError]) -> Made | None:
-    """Return what `make` builds of a line; a field that it refuses is noted and left out, until it refuses none."""
+    A field that is missed once it is left out takes the one around it along.
+    """
     data: Mapping[str, Any] = document.data
     fields: set[str] = set()
     while True:
@@ -110,8 +108,8 @@ def _built(document: Document, make: Callable[[Mapping[str, Any]], Made], faults
             while field in fields:
                 field = _parent(field)
             fields.add(field)
-            smaller = _without(data, field)
-            if smaller is None:
+            smaller = {**data, field: stand_ins[field]} if field in stand_ins else _without(data, field)
+            if smaller is None or field in ANCHORS:
                 return None
             data = smaller
 

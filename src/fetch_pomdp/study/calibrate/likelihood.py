@@ -8,7 +8,8 @@ Eq. 7 has to do, and sigma comes out a little small.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Hashable, Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,7 +18,6 @@ import numpy as np
 from fetch_pomdp.core import gesture, language
 from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Integers, Vector
-from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import LARGEST_EXACT
 from fetch_pomdp.core.scene import Scene
@@ -32,29 +32,35 @@ class Case(NamedTuple):
     desired: int
     asked: int | None
     action: Action
-    seen: tuple[str, ...] | Ray | None
+    words: tuple[str, ...] = ()
+    angle: float | None = None  # rad, from the ray to the desired item
 
 
-Judge = Callable[[Case, Problem], float]
+Judge = Callable[[Sequence[Case], Problem], Vector]
 
 
-def pointing(case: Case, problem: Problem) -> float:
-    """Return log p(g | i_d)."""
-    ray = case.seen if isinstance(case.seen, Ray) else None
-    return float(gesture.log_likelihood(ray, problem)[case.desired])
+def pointing(cases: Sequence[Case], problem: Problem) -> Vector:
+    """Return log p(g | i_d) of each case."""
+    found = np.array([math.nan if case.angle is None else case.angle for case in cases])
+    null = gesture.log_likelihood(None, problem)[[case.desired for case in cases]]
+    return np.where(np.isnan(found), null, gesture.log_density(found, problem))
 
 
-def naming(case: Case, problem: Problem) -> float:
-    """Return log p(l_b | i_d)."""
-    base = case.seen if isinstance(case.seen, tuple) else ()
-    return float(language.base_log_likelihood(base, problem)[case.desired])
+def naming(cases: Sequence[Case], problem: Problem) -> Vector:
+    """Return log p(l_b | i_d) of each case."""
+    return np.array([language.base_log_likelihood(case.words, problem)[case.desired] for case in cases])
 
 
-def answering(case: Case, problem: Problem) -> float:
-    """Return log p(l_r | i_d, i_r)."""
-    response = case.seen if isinstance(case.seen, tuple) else ()
-    rate = language.answer_rate(case.action, problem)
-    return float(language.response_log_likelihood(response, case.asked, problem, rate)[case.desired])
+def answering(cases: Sequence[Case], problem: Problem) -> Vector:
+    """Return log p(l_r | i_d, i_r) of each case."""
+    return np.array(
+        [
+            language.response_log_likelihood(
+                case.words, case.asked, problem, language.answer_rate(case.action, problem)
+            )[case.desired]
+            for case in cases
+        ]
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,27 +68,22 @@ class Modality:
     """The recorded observations of one modality."""
 
     scenes: tuple[Scene, ...]
-    cases: tuple[Case, ...]
-    case_of: Integers  # (n_steps,)
+    cases: tuple[tuple[Case, ...], ...]  # of each scene
+    case_of: Integers  # (n_steps,), as they are numbered from the first scene's first on
     judge: Judge
 
     def log_likelihood(self, changes: Mapping[str, float]) -> Vector:
         """Return the log-likelihood of each step under the recorded models with some parameters changed, (n_steps,)."""
-        likelihood = "exact" if self.judge is pointing else "eq7"
-        problems = [
-            Problem(
-                dataclasses.replace(
-                    scene, model=scene.model.with_changes({**changes, **_likelihood(scene, likelihood)})
-                )
-            )
-            for scene in self.scenes
+        found = [
+            self.judge(cases, self._problem(scene, changes))
+            for scene, cases in zip(self.scenes, self.cases, strict=True)
         ]
-        found = np.array([self.judge(case, problems[case.scene]) for case in self.cases])
-        return np.asarray(found[self.case_of])
+        return np.asarray(np.concatenate(found)[self.case_of])
 
-
-def _likelihood(scene: Scene, wanted: str) -> dict[str, str]:
-    return {"gesture_likelihood": wanted if len(scene.items) <= LARGEST_EXACT else "eq7"}
+    def _problem(self, scene: Scene, changes: Mapping[str, float]) -> Problem:
+        exact = self.judge is pointing and len(scene.items) <= LARGEST_EXACT
+        likelihood = {"gesture_likelihood": "exact" if exact else "eq7"}
+        return Problem(dataclasses.replace(scene, model=scene.model.with_changes({**changes, **likelihood})))
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +113,7 @@ def records_of(interactions: Sequence[Interaction]) -> Records:
             numbers.append((number, person))
     pairs = np.array(numbers, dtype=np.int64).reshape(-1, 2)
     seen, named, answered = (
-        Modality(tuple(scenes), *_distinct(cases), judge)
+        Modality(tuple(scenes), *_distinct(cases, len(scenes)), judge)
         for cases, judge in zip(kinds, (pointing, naming, answering), strict=True)
     )
     return Records(seen, named, answered, pairs[:, 0], pairs[:, 1])
@@ -123,15 +124,17 @@ def _cases(step: Step, scene: int, desired: int, problem: Problem) -> tuple[Case
     positive = sum(word in POSITIVE for word in said.response)
     response = (POSITIVE[0],) * positive + (NEGATIVE[0],) * (len(said.response) - positive)
     ray = step.observation.ray
-    seen = None if ray is None or not gesture.is_pointing(ray, problem) else ray
+    angle = None if ray is None or not gesture.is_pointing(ray, problem) else gesture.angles(ray, problem)[desired]
     return (
-        Case(scene, desired, None, Wait(), seen),
+        Case(scene, desired, None, Wait(), (), None if angle is None else float(angle)),
         Case(scene, desired, None, Wait(), tuple(sorted(said.base))),
         Case(scene, desired, step.asked, step.action, response),
     )
 
 
-def _distinct(cases: Sequence[Case]) -> tuple[tuple[Case, ...], Integers]:
-    numbers: dict[Hashable, int] = {}
-    case_of = [numbers.setdefault(case, len(numbers)) for case in cases]
-    return tuple(numbers), np.array(case_of, dtype=np.int64)  # type: ignore[arg-type]
+def _distinct(cases: Sequence[Case], scenes: int) -> tuple[tuple[tuple[Case, ...], ...], Integers]:
+    """Return the distinct cases of each scene, and the number of each case among them all."""
+    distinct = sorted(dict.fromkeys(cases), key=lambda case: case.scene)
+    numbers = {case: number for number, case in enumerate(distinct)}
+    by_scene = tuple(tuple(case for case in distinct if case.scene == scene) for scene in range(scenes))
+    return by_scene, np.array([numbers[case] for case in cases], dtype=np.int64)
