@@ -91,7 +91,8 @@ def lean(events: tuple[Event, ...]) -> tuple[Event, ...]:
 
 def intervals(found: Calibration, truth: Truth) -> dict[str, dict[str, Any]]:
     """Return each parameter's estimate, interval and true value."""
-    limits = {one.name: (one.value, one.low, one.high) for one in (*found.estimates, *found.bias)}
+    limits = {one.name: (one.value, one.low, one.high) for one in found.estimates}
+    limits |= {one.name: (one.value, one.low, one.high) for one in found.bias}
     known = {one.name: one.known for one in found.estimates}
     return {
         name: {
@@ -111,7 +112,7 @@ def measured(kind: str, sets: int, seed: int) -> list[dict[str, dict[str, Any]]]
     nearest: Truth = {}
     if kind == "other":
         found = calibrate(list(of_others(MANY, TRIALS, np.random.default_rng((seed, 9)))))
-        nearest = {one.name: one.value for one in (*found.estimates, *found.bias)}
+        nearest = {one.name: one.value for one in found.estimates} | {one.name: one.value for one in found.bias}
         print("other people: nearest model", nearest, flush=True)
     results = []
     for number in range(sets):

@@ -32,12 +32,12 @@ def read(folder: Path, header: dict[str, object], events: list[dict[str, object]
 
 def test_a_log_is_scored_as_a_trial(tmp_path: Path) -> None:
     told = {**HEADER, "layout": "near", "paradigm": "fetch", "order": 7, "begun": 0.25}
-    (trial,) = trials_of([read(tmp_path, told, EVENTS)])  # type: ignore[list-item, arg-type]
+    (trial,) = trials_of([read(tmp_path, told, EVENTS)])
     assert trial == Trial(3, "near", "fetch", "bowl-2", 7, 6.0, True, "bowl-2", 1, 1)
 
 
 def test_what_a_header_leaves_out(tmp_path: Path) -> None:
-    logs = [read(tmp_path, {**HEADER, "person": person}, EVENTS[:-1]) for person in (3, 4, 3)]  # type: ignore[arg-type]
+    logs = [read(tmp_path, {**HEADER, "person": person}, EVENTS[:-1]) for person in (3, 4, 3)]
     trials = list(trials_of(logs))
     assert [(trial.person, trial.order) for trial in trials] == [(3, 0), (4, 0), (3, 1)]
     assert trials[0] == Trial(3, "ambiguous", "sparse", "bowl-2", 0, 5.5, False, None, 1, 1)
