@@ -24,8 +24,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fetch_pomdp.study.encounter import encounter
-from fetch_pomdp.study.people.parameters import People
 from numpy.random import Generator
 
 from fetch_pomdp.core.agent import Agent
@@ -37,6 +35,8 @@ from fetch_pomdp.study.calibrate.calibration import Calibration, calibrate
 from fetch_pomdp.study.calibrate.modelled import modelled
 from fetch_pomdp.study.calibrate.steps import Interaction
 from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.encounter import encounter
+from fetch_pomdp.study.people.parameters import People
 
 ROOT = Path(__file__).parent.parent
 RESULT = ROOT / "benchmarks" / "results" / "calibrate.json"
