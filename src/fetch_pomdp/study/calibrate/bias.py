@@ -37,21 +37,20 @@ class Offset:
         return self.low <= value <= self.high
 
 
-def offsets(interactions: Sequence[Interaction], piece: Sequence[int]) -> tuple[Offset, ...]:
-    """Return how far right of the item and above it people point (rad), as they see it; none for fewer than two pieces.
+def offsets(interactions: Sequence[tuple[int, Interaction]], stratum: Integers) -> tuple[Offset, ...]:
+    """Return how far right of the item and above it people point (rad), as they see it; none where too few point.
 
-    piece: number of the independent piece (person, or interaction) that each interaction belongs to. The mean is the
-    maximum-likelihood estimate for normal errors; its interval is that of a t-test on the pieces, which is right
-    whatever the errors within a piece have in common.
+    interactions: with the number of the independent piece (person, or interaction) that each is of. stratum: of each
+    piece, (n_pieces,). The mean is the maximum-likelihood estimate for normal errors; its interval is that of a t-test
+    on the pieces, within strata, which is right whatever the errors within a piece have in common.
     """
-    errors = [(number, error) for number, one in zip(piece, interactions, strict=True) for error in _errors(one)]
-    if not errors:
+    errors = [(number, error) for number, one in interactions for error in _errors(one)]
+    numbers, piece = np.unique([number for number, _ in errors], return_inverse=True)
+    strata = np.unique(stratum[numbers.astype(np.int64)], return_inverse=True)[1]
+    if len(strata) - len(np.bincount(strata)) < 1:
         return ()
-    numbers = np.unique([number for number, _ in errors], return_inverse=True)[1]
     found = np.array([error for _, error in errors])
-    if numbers.max() < 1:
-        return ()
-    return tuple(_mean(name, found[:, axis], numbers) for axis, name in enumerate(("bias_right", "bias_up")))
+    return tuple(_mean(name, found[:, axis], piece, strata) for axis, name in enumerate(("bias_right", "bias_up")))
 
 
 def _errors(one: Interaction) -> Iterator[tuple[float, float]]:
@@ -82,11 +81,12 @@ def _unit(vector: Vector) -> Vector:
     return np.asarray(vector / np.linalg.norm(vector))
 
 
-def _mean(name: str, errors: Vector, piece: Integers) -> Offset:
+def _mean(name: str, errors: Vector, piece: Integers, strata: Integers) -> Offset:
     """Return the mean and its interval; a piece counts by its rays (linearised ratio of sums)."""
     mean = float(errors.mean())
-    count = int(piece.max()) + 1
-    sums = np.bincount(piece, weights=errors - mean)
-    spread = math.sqrt(float((sums**2).sum()) * count / (count - 1)) / len(errors)
-    reach = spread * float(load("scipy.stats").t.ppf((1.0 + LEVEL) / 2.0, count - 1))
+    sums, sizes = np.bincount(piece, weights=errors - mean), np.bincount(strata)
+    apart = (sums - (np.bincount(strata, weights=sums) / sizes)[strata]) ** 2
+    spread = math.sqrt(float((apart * (sizes / np.maximum(sizes - 1, 1))[strata]).sum())) / len(errors)
+    free = len(strata) - len(sizes)
+    reach = spread * float(load("scipy.stats").t.ppf((1.0 + LEVEL) / 2.0, free))
     return Offset(name, mean, mean - reach, mean + reach, len(errors))

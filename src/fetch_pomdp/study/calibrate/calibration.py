@@ -12,7 +12,7 @@ from fetch_pomdp.core.model import Model
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.study.calibrate.bias import Offset, offsets
 from fetch_pomdp.study.calibrate.confusion import Confusion, confusion_of
-from fetch_pomdp.study.calibrate.estimate import ENOUGH_PEOPLE, Estimate, Likelihood, estimates
+from fetch_pomdp.study.calibrate.estimate import ENOUGH_PEOPLE, Estimate, Likelihood, Pieces, estimates
 from fetch_pomdp.study.calibrate.likelihood import Modality, Records, records_of
 from fetch_pomdp.study.calibrate.scales import ANSWERING, NAMING, POINTING, SPEAKING, Scale
 from fetch_pomdp.study.calibrate.steps import Interaction
@@ -56,18 +56,27 @@ def calibrate(interactions: Sequence[Interaction]) -> Calibration:
     records = records_of(interactions)
     if not len(records.interaction):
         raise StudyError("found no observations, expected recorded interactions with some", field="logs")
-    names = list(dict.fromkeys(one.person for one in interactions))
-    by_person = len(names) >= ENOUGH_PEOPLE
-    piece = records.person if by_person else records.interaction
-    pieces = [names.index(one.person) if by_person else number for number, one in enumerate(interactions)]
+    people = len(np.unique(records.person))
+    piece = records.person if people >= ENOUGH_PEOPLE else records.interaction
+    pieces = _pieces(piece, records.scene)
+    number = dict(zip(records.interaction.tolist(), pieces.of_step.tolist(), strict=True))
+    heard = [(number[index], one) for index, one in enumerate(interactions) if index in number]
     return Calibration(
         interactions=len(interactions),
-        people=len(names),
+        people=people,
         steps=len(records.interaction),
-        estimates=tuple(_estimates(records, piece)),
-        bias=offsets(interactions, pieces),
+        estimates=tuple(_estimates(records, pieces)),
+        bias=offsets(heard, pieces.stratum),
         confusion=confusion_of(one.events for one in interactions),
     )
+
+
+def _pieces(piece: Integers, scene: Integers) -> Pieces:
+    """Return the pieces, with as strata the tables that each was at."""
+    names, of_step = np.unique(piece, return_inverse=True)
+    tables = [tuple(np.unique(scene[of_step == number]).tolist()) for number in range(len(names))]
+    strata = {table: number for number, table in enumerate(dict.fromkeys(tables))}
+    return Pieces(of_step, np.array([strata[table] for table in tables]))
 
 
 def by_person(interactions: Sequence[Interaction]) -> dict[str, Calibration]:
@@ -78,7 +87,7 @@ def by_person(interactions: Sequence[Interaction]) -> dict[str, Calibration]:
     return {name: calibrate(theirs) for name, theirs in people.items() if len(records_of(theirs).interaction)}
 
 
-def _estimates(records: Records, piece: Integers) -> list[Estimate]:
+def _estimates(records: Records, pieces: Pieces) -> list[Estimate]:
     found: list[Estimate] = []
     groups: tuple[tuple[tuple[Scale, ...], tuple[Modality, ...]], ...] = (
         (POINTING, (records.pointing,)),
@@ -87,7 +96,7 @@ def _estimates(records: Records, piece: Integers) -> list[Estimate]:
         (ANSWERING, (records.answering,)),
     )
     for scales, modalities in groups:
-        found += estimates(scales, _likelihood(scales, modalities), piece)
+        found += estimates(scales, _likelihood(scales, modalities), pieces)
     return found
 
 

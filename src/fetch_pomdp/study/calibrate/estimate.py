@@ -23,12 +23,25 @@ LEVEL = 0.9
 FALL = 1.35  # of the log-likelihood towards an end of a line, half the 90 % quantile of chi-squared: less tells nothing
 STEP = 0.02  # on a line, of numeric derivatives
 GRID = 9  # places on a line, of the coarse search
+UNBOUNDED = 10**9  # degrees of freedom of a variance that is the model's own
 LEAST = 1e-3  # information that every line is held to have
 FEW = 10.0  # pieces of information, below which the scores' variance is not trusted to be smaller than the model's
 ENOUGH_PEOPLE = 8  # below it, interactions are the independent pieces
 
 Known = Literal["both", "low", "high", "none"]  # the limits that the logs set
 Likelihood = Callable[[Vector], Vector]  # places on the lines to the log-likelihood of each step
+
+
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """The independent pieces of logs: people, or interactions.
+
+    Choice: how many of them are at which table is held to be chosen by whoever made the study. So differences between
+    tables are no part of the variance: scores are compared within a table's pieces (a stratum).
+    """
+
+    of_step: Integers  # (n_steps,), number of each step's piece
+    stratum: Integers  # (n_pieces,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +61,8 @@ class Estimate:
         return self.low <= value <= self.high
 
 
-def estimates(scales: Sequence[Scale], likelihood: Likelihood, piece: Integers) -> list[Estimate]:
-    """Return estimates of parameters that are fitted together. piece: number of the independent piece of each step."""
+def estimates(scales: Sequence[Scale], likelihood: Likelihood, pieces: Pieces) -> list[Estimate]:
+    """Return estimates of parameters that are fitted together."""
 
     def log_posterior(places: Vector) -> float:
         prior = sum(scale.log_prior(place) for scale, place in zip(scales, places.tolist(), strict=True))
@@ -58,7 +71,7 @@ def estimates(scales: Sequence[Scale], likelihood: Likelihood, piece: Integers) 
     mode = _mode(scales, log_posterior)
     hessian = _hessian(log_posterior, mode)
     model_variance = _inverse(-hessian)
-    robust, pieces = _robust_variance(likelihood, mode, piece, model_variance)
+    robust, free = _robust_variance(likelihood, mode, pieces, model_variance)
     found = []
     for index, scale in enumerate(scales):
         information = -hessian[index, index]
@@ -66,7 +79,7 @@ def estimates(scales: Sequence[Scale], likelihood: Likelihood, piece: Integers) 
         inflation = ratio if information >= FEW else max(1.0, ratio)
         direction = model_variance[:, index] / model_variance[index, index]
         path = _Path(mode, direction, index, tuple(one.line for one in scales))
-        limits = [_limit(log_posterior, path, side, _drop(inflation, pieces)) for side in (0, 1)]
+        limits = [_limit(log_posterior, path, side, _drop(inflation, free)) for side in (0, 1)]
         found.append(_estimate(scale, index, mode, limits, likelihood, inflation))
     return found
 
@@ -93,10 +106,10 @@ class _Path:
         return np.clip(self.mode + (place - self.begin) * self.direction, lows, highs)
 
 
-def _drop(inflation: float, pieces: int) -> float:
-    """Return how far the log-posterior may fall within an interval."""
+def _drop(inflation: float, free: int) -> float:
+    """Return how far the log-posterior may fall within an interval. free: degrees of freedom of the inflation."""
     stats = load("scipy.stats")
-    quantile = float(stats.t.ppf((1.0 + LEVEL) / 2.0, max(pieces - 1, 1)))
+    quantile = float(stats.t.ppf((1.0 + LEVEL) / 2.0, free))
     return 0.5 * inflation * quantile**2
 
 
@@ -146,20 +159,23 @@ def _inverse(information: Vector) -> Vector:
 
 
 def _robust_variance(
-    likelihood: Likelihood, mode: Vector, piece: Integers, model_variance: Vector
+    likelihood: Likelihood, mode: Vector, pieces: Pieces, model_variance: Vector
 ) -> tuple[Vector, int]:
-    """Return the sandwich variance of the mode, and how many pieces there are."""
-    _, numbers = np.unique(piece, return_inverse=True)
-    count = int(numbers.max()) + 1 if len(numbers) else 0
-    if count < 2:
-        return model_variance, 10**9
-    scores = np.empty((count, len(mode)))
+    """Return the sandwich variance of the mode, and its degrees of freedom: pieces beyond one a stratum."""
+    strata = np.unique(pieces.stratum, return_inverse=True)[1]
+    sizes = np.bincount(strata)
+    free = len(strata) - len(sizes)
+    if free < 1:
+        return model_variance, UNBOUNDED
+    scores = np.empty((len(strata), len(mode)))
     for index in range(len(mode)):
-        up, down = (likelihood(_moved(mode, (index, by))) for by in (STEP, -STEP))
-        scores[:, index] = np.bincount(numbers, weights=(up - down) / (2 * STEP))
-    scores -= scores.mean(axis=0)
-    spread = scores.T @ scores * count / (count - 1)
-    return np.asarray(model_variance @ spread @ model_variance), count
+        up, down = (likelihood(_at(mode, index, mode[index] + by)) for by in (STEP, -STEP))
+        scores[:, index] = np.bincount(pieces.of_step, (up - down) / (2 * STEP), len(strata))
+    for stratum, size in enumerate(sizes):
+        within = strata == stratum
+        scores[within] -= scores[within].mean(axis=0)
+        scores[within] *= np.sqrt(size / max(size - 1, 1))
+    return np.asarray(model_variance @ scores.T @ scores @ model_variance), free
 
 
 def _limit(log_posterior: Callable[[Vector], float], path: _Path, side: int, drop: float) -> float:

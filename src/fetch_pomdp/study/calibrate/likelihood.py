@@ -88,13 +88,14 @@ class Modality:
 
 @dataclass(frozen=True, slots=True)
 class Records:
-    """The steps of many interactions by modality; `interaction` and `person` number whose each step is, (n_steps,)."""
+    """The steps of many interactions by modality; the rest numbers whose each is and at which table, (n_steps,)."""
 
     pointing: Modality
     naming: Modality
     answering: Modality
     interaction: Integers
     person: Integers
+    scene: Integers
 
 
 def records_of(interactions: Sequence[Interaction]) -> Records:
@@ -102,7 +103,7 @@ def records_of(interactions: Sequence[Interaction]) -> Records:
     scenes: dict[Scene, int] = {}
     people: dict[str, int] = {}
     kinds: tuple[list[Case], ...] = ([], [], [])
-    numbers: list[tuple[int, int]] = []
+    numbers: list[tuple[int, int, int]] = []
     for number, one in enumerate(interactions):
         scene = scenes.setdefault(one.scene, len(scenes))
         person = people.setdefault(one.person, len(people))
@@ -110,13 +111,13 @@ def records_of(interactions: Sequence[Interaction]) -> Records:
         for step in steps_of(one.events):
             for cases, case in zip(kinds, _cases(step, scene, one.desired, problem), strict=True):
                 cases.append(case)
-            numbers.append((number, person))
-    pairs = np.array(numbers, dtype=np.int64).reshape(-1, 2)
+            numbers.append((number, person, scene))
+    whose = np.array(numbers, dtype=np.int64).reshape(-1, 3)
     seen, named, answered = (
         Modality(tuple(scenes), *_distinct(cases, len(scenes)), judge)
         for cases, judge in zip(kinds, (pointing, naming, answering), strict=True)
     )
-    return Records(seen, named, answered, pairs[:, 0], pairs[:, 1])
+    return Records(seen, named, answered, whose[:, 0], whose[:, 1], whose[:, 2])
 
 
 def _cases(step: Step, scene: int, desired: int, problem: Problem) -> tuple[Case, Case, Case]:
