@@ -25,7 +25,7 @@ STEP = 0.02  # on a line, of numeric derivatives
 GRID = 9  # places on a line, of the coarse search
 UNBOUNDED = 10**9  # degrees of freedom of a variance that is the model's own
 LEAST = 1e-3  # information that every line is held to have
-FEW = 10.0  # pieces of information, below which the scores' variance is not trusted to be smaller than the model's
+FEW = 3.0  # information, below which the scores are too few for their variance to be trusted where it is the smaller
 ENOUGH_PEOPLE = 8  # below it, interactions are the independent pieces
 
 Known = Literal["both", "low", "high", "none"]  # the limits that the logs set
