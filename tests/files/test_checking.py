@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -246,13 +247,13 @@ def test_the_schema_names_the_fields_of_the_reader() -> None:
 @given(event=events)
 @settings(max_examples=60)
 def test_every_event_that_is_written_fits_the_schema(event: Event) -> None:
-    validator = pytest.importorskip("jsonschema").Draft202012Validator(schema())
+    validator = jsonschema.Draft202012Validator(schema())
     assert validator.is_valid(json.loads(json.dumps(event_to_json(event, SCENE))))
 
 
 @pytest.mark.parametrize("header", [*headers, TRIAL])
 def test_every_header_that_is_written_fits_the_schema(header: Header) -> None:
-    validator = pytest.importorskip("jsonschema").Draft202012Validator(schema())
+    validator = jsonschema.Draft202012Validator(schema())
     assert validator.is_valid(json.loads(json.dumps(header_to_json(header))))
 
 
@@ -267,7 +268,7 @@ values = st.sampled_from([None, 0, -1, 1.5, "", "wait", "bowl-1", True, [], {}, 
 @given(line=st.sampled_from(range(3)), data=st.data())
 @settings(max_examples=120, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_what_the_schema_refuses_the_reader_refuses(tmp_path: Path, line: int, data: st.DataObject) -> None:
-    validator = pytest.importorskip("jsonschema").Draft202012Validator(schema())
+    validator = jsonschema.Draft202012Validator(schema())
     changed = json.loads(json.dumps(VALID))
     fields = changed[line]["observation"] if line == 2 and data.draw(st.booleans()) else changed[line]
     fields[data.draw(st.sampled_from([*fields, "colour"]))] = data.draw(values)
@@ -276,7 +277,7 @@ def test_what_the_schema_refuses_the_reader_refuses(tmp_path: Path, line: int, d
 
 
 def test_a_point_is_about_an_item_by_the_schema_too() -> None:
-    validator = pytest.importorskip("jsonschema").Draft202012Validator(schema())
+    validator = jsonschema.Draft202012Validator(schema())
     assert not validator.is_valid({"action": "point"})
     assert not validator.is_valid({"action": "wait", "item": "bowl-1"})
     assert validator.is_valid(event_to_json(Acted(Point(0)), SCENE))

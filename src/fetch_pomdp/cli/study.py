@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
@@ -13,9 +14,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from fetch_pomdp.adapters.speech.spoken import SpokenWords
-from fetch_pomdp.cli.options import Json, Seed, as_json, warm_up
+from fetch_pomdp.cli.options import Json, ModelFile, Seed, as_json, warm_up
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.files.models import with_model
 from fetch_pomdp.study.analysis.cells import Cell, cells
 from fetch_pomdp.study.analysis.plan import Plan
 from fetch_pomdp.study.analysis.trials import checked
@@ -41,6 +43,7 @@ def study(
     people: Annotated[int | None, typer.Option(min=1, help="How many people take part.  [default: 16]")] = None,
     seed: Seed = None,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Where the trials go, or are already.")] = FOLDER,
+    model: ModelFile = None,
     logs: Annotated[bool, typer.Option("--logs", help="Keep every interaction, event by event, in DIR/logs.")] = False,
     real_speech: Annotated[
         bool, typer.Option("--real-speech", help="Say every word with espeak-ng and hear it with PocketSphinx.")
@@ -58,10 +61,7 @@ def study(
     if context.invoked_subcommand is not None:
         return
     given = {"people": people, "seed": seed, "logs": logs or None, "real_speech": real_speech or None}
-    chosen = dataclasses.replace(
-        load_study(config) if config else Study(),
-        **{name: value for name, value in given.items() if value is not None},  # type: ignore[arg-type]
-    )
+    chosen = _chosen(config, model, given)
     crew = Crew(workers=workers, backend=backend, address=address)  # type: ignore[arg-type]
     _play(chosen, out, crew)
     for ending in (".csv", ".parquet"):
@@ -86,6 +86,15 @@ def report(
     """Write what a study found: pictures, tests and the answers to the paper's hypotheses, as one HTML page."""
     beside = trials if trials.is_dir() else trials.parent
     print(f"wrote {write_report(read_table(trials), out or beside / REPORT)}")
+
+
+def _chosen(config: Path | None, model: Path | None, given: Mapping[str, object]) -> Study:
+    """Return the study of a file, or the paper's, with what was given beside it."""
+    planned = load_study(config) if config else Study()
+    changes = {name: value for name, value in given.items() if value is not None}
+    if model is not None:
+        changes["layouts"] = {name: with_model(scene, model) for name, scene in planned.layouts.items()}
+    return dataclasses.replace(planned, **changes)  # type: ignore[arg-type]
 
 
 def _play(chosen: Study, out: Path, crew: Crew) -> None:
