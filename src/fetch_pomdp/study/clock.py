@@ -12,8 +12,8 @@ class Clock:
     """Seconds of the robot's doings.
 
     A question is the arm's way to the item, the words "this one?", and listening; the arm goes back while the robot
-    listens. `overhead` is time that a trial is measured by and no step takes: from the countdown to the request, and from
-    the decision to its having been told, the beginning and end of a trial in Section IV-B; nothing happens in it.
+    listens. `overhead` is time that a trial is measured by and no step takes, in which nothing happens: Section IV-B
+    has a trial begin with a countdown, and end when the robot has told which item it will pick.
     """
 
     think: float = 0.1  # s, a decision

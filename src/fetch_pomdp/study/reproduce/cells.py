@@ -31,8 +31,8 @@ class Simulated:
 def simulate(study: Study, crew: Crew) -> tuple[Trial, ...]:
     """Play a study and return its trials.
 
-    Trials draw from streams of their person and place alone: two studies that differ by a parameter meet the same people
-    with the same luck (common random numbers), and differ by less than two of other seeds would.
+    Trials draw from streams of their person and place alone: two studies that differ by a parameter meet the same
+    people with the same luck (common random numbers), and differ by less than two of other seeds would.
     """
     return tuple(crew.results(partial(_trial, study), assignments(study)))
 

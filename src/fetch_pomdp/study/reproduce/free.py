@@ -22,7 +22,7 @@ CLOCK = tuple(field.name for field in dataclasses.fields(Clock))
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Free:
-    """A parameter that a search may change, and why it is free. Raises StudyError for an unknown name or no range.
+    """A parameter that a search may change from `start`, and why. Raises StudyError for an unknown name or no range.
 
     A search sees it as a coordinate from 0 to 1 between the logarithms of its bounds, so that bounds are above 0.
     """
@@ -30,6 +30,7 @@ class Free:
     name: str
     low: float
     high: float
+    start: float
     why: str
 
     def __post_init__(self) -> None:
@@ -39,14 +40,16 @@ class Free:
         high = checks.within(self.high, 1e-6, 1e6, "high", "a number above `low`", StudyError)
         if low >= high:
             raise StudyError(f"found {high:g}, expected a number above `low`", field="high")
+        checks.within(self.start, low, high, "start", "a number from `low` to `high`", StudyError)
 
     def value(self, coordinate: float) -> float:
         """Return the value at a coordinate from 0 to 1."""
-        return self.low * (self.high / self.low) ** coordinate
+        return self.low * math.exp(coordinate * math.log(self.high / self.low))
 
-    def coordinate(self, value: float) -> float:
-        """Return where a value is, 0 at or below `low` and 1 at or above `high`."""
-        return math.log(min(max(value, self.low), self.high) / self.low) / math.log(self.high / self.low)
+    @property
+    def beginning(self) -> float:
+        """Return the coordinate of `start`."""
+        return math.log(self.start / self.low) / math.log(self.high / self.low)
 
 
 def changed(study: Study, values: Mapping[str, Any]) -> Study:
@@ -63,8 +66,3 @@ def changed(study: Study, values: Mapping[str, Any]) -> Study:
         population=dataclasses.replace(study.population, **people),
         clock=dataclasses.replace(study.clock, **clock),
     )
-
-
-def present(study: Study, name: str) -> Any:
-    """Return the value that a study has for a parameter."""
-    return getattr(study.population if name in PEOPLE else study.clock, name)

@@ -14,7 +14,7 @@ from fetch_pomdp.errors import StudyError
 from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.libraries import load
 from fetch_pomdp.study.reproduce.cells import cell, loss, reduced, residuals, simulate
-from fetch_pomdp.study.reproduce.free import OVERHEAD, Free, changed, present
+from fetch_pomdp.study.reproduce.free import OVERHEAD, Free, changed
 from fetch_pomdp.study.reproduce.targets import Targets
 
 COARSE, FINE = 24, 72  # people a layout, each with 18 trials in every cell
@@ -51,8 +51,8 @@ class Objective:
 
     @property
     def start(self) -> Vector:
-        """Return the point of the values that the targets' study has."""
-        return np.array([1.0 + free.coordinate(present(self.targets.study, free.name)) for free in self.moving])
+        """Return the point that a search begins at."""
+        return np.array([1.0 + free.beginning for free in self.moving])
 
     def at(self, point: Vector, people: int) -> tuple[Vector, dict[str, float]]:
         """Return the distances in standard errors and the values of the free parameters; people: a layout."""
@@ -75,8 +75,8 @@ def fit(
 ) -> Fit:
     """Search for the free parameters; the same seed and budget give the same fit.
 
-    Half of the evaluations go to a Sobol sequence over the ranges (and the study's own values), a quarter to
-    least squares from the best of them, a quarter to least squares with three times as many people.
+    Half of the evaluations go to a Latin hypercube over the ranges (and the start), a quarter to least
+    squares from the best of them, a quarter to least squares with three times as many people.
 
     Choice: Gauss-Newton's derivatives (SciPy's trust region) rather than a simplex or an evolution: there are few
     parameters, each evaluation is thousands of interactions, and the loss is a sum of squares.
@@ -89,7 +89,7 @@ def fit(
         raise StudyError("found none besides the overhead, expected one or more", field="free")
     within(budget, 8, 1e6, "budget", "a whole number from 8", StudyError)
     counted = _Counted(objective, told)
-    explored = load("scipy.stats.qmc").Sobol(size, rng=seed).random(max(1, budget // 2 - 1))
+    explored = load("scipy.stats.qmc").LatinHypercube(size, rng=seed).random(max(1, budget // 2 - 1))
     points = [objective.start, *(1.0 + explored)]
     best = min(points, key=lambda point: loss(counted.residuals(point, COARSE)))
     for people in (COARSE, FINE):

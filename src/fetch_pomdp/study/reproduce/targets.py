@@ -133,8 +133,8 @@ def _range(value: object) -> tuple[float, float]:
 def _free(row: object, path: str) -> Free:
     try:
         data = checks.mapping(row, "", StudyError)
-        checks.known(data, ("name", "low", "high", "why"), "field", StudyError)
-        checks.required(data, ("name", "low", "high", "why"), StudyError)
+        checks.known(data, ("name", "low", "high", "start", "why"), "field", StudyError)
+        checks.required(data, ("name", "low", "high", "start", "why"), StudyError)
         return Free(**data)
     except InputError as error:
         raise error.within(path) from None
