@@ -15,9 +15,10 @@ PAPER = Path(__file__).parents[3] / "studies" / "paper.toml"
 KINDS = ("never", "always", "fetch")
 
 # Section IV-D, sentence by sentence; unknowns are never, always and fetch ambiguous, then unambiguous.
-MEANS = [[1 / 3] * 3 + [0] * 3, [0] * 3 + [1 / 3] * 3]
-FETCH_LESS_NEVER = [-1, 0, 1]
-FETCH_LESS_ALWAYS = [0, -1, 1]
+MEANS = [[1 / 3] * 3 + [0.0] * 3, [0.0] * 3 + [1 / 3] * 3]
+FETCH_LESS_NEVER = [-1.0, 0.0, 1.0]
+FETCH_LESS_ALWAYS = [0.0, -1.0, 1.0]
+NOTHING = [0.0, 0.0, 0.0]
 
 
 def solved(rows: list[list[float]], values: list[float]) -> Mapping[tuple[str, str], float]:
@@ -43,9 +44,9 @@ def cells(targets: Targets) -> Mapping[tuple[str, str], Target]:
 def test_times_follow_from_the_papers_sentences(targets: Targets) -> None:
     rows = [
         *MEANS,
-        [*FETCH_LESS_NEVER, 0, 0, 0],
-        [*FETCH_LESS_ALWAYS, 0, 0, 0],
-        [0, 0, 0, *FETCH_LESS_ALWAYS],
+        [*FETCH_LESS_NEVER, *NOTHING],
+        [*FETCH_LESS_ALWAYS, *NOTHING],
+        [*NOTHING, *FETCH_LESS_ALWAYS],
         halves(FETCH_LESS_NEVER),
         halves(FETCH_LESS_ALWAYS),
     ]
@@ -57,10 +58,10 @@ def test_accuracies_are_what_the_papers_sentences_leave_open(targets: Targets) -
     """One unknown is left: fetch less always, ambiguous; it is tried from 0 to 10 points."""
     rows = [
         *MEANS,
-        [*FETCH_LESS_NEVER, 0, 0, 0],
+        [*FETCH_LESS_NEVER, *NOTHING],
         halves(FETCH_LESS_NEVER),
         halves(FETCH_LESS_ALWAYS),
-        [*FETCH_LESS_ALWAYS, 0, 0, 0],
+        [*FETCH_LESS_ALWAYS, *NOTHING],
     ]
     tried = [solved(rows, [88.4, 97.9, 11.1, 5.21, 2.1, x]) for x in np.linspace(0, 10, 1001)]
     possible = [all97 for all97 in tried if all(97 < all97["unambiguous", kind] <= 100 for kind in KINDS)]
