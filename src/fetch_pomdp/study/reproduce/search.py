@@ -75,8 +75,8 @@ def fit(
 ) -> Fit:
     """Search for the free parameters; the same seed and budget give the same fit.
 
-    Half of the evaluations go to a Latin hypercube over the ranges (and the start), a quarter to least
-    squares from the best of them, a quarter to least squares with three times as many people.
+    A quarter of the evaluations goes to the start and a Latin hypercube over the ranges, half to least squares from
+    the best of them, a quarter to least squares with three times as many people.
 
     Choice: Gauss-Newton's derivatives (SciPy's trust region) rather than a simplex or an evolution: there are few
     parameters, each evaluation is thousands of interactions, and the loss is a sum of squares.
@@ -89,11 +89,11 @@ def fit(
         raise StudyError("found none besides the overhead, expected one or more", field="free")
     within(budget, 8, 1e6, "budget", "a whole number from 8", StudyError)
     counted = _Counted(objective, told)
-    explored = load("scipy.stats.qmc").LatinHypercube(size, rng=seed).random(max(1, budget // 2 - 1))
+    explored = load("scipy.stats.qmc").LatinHypercube(size, rng=seed).random(max(1, budget // 4 - 1))
     points = [objective.start, *(1.0 + explored)]
     best = min(points, key=lambda point: loss(counted.residuals(point, COARSE)))
-    for people in (COARSE, FINE):
-        best = _descended(counted, best, people, max(1, budget // 4 // (size + 1)))
+    for people, share in ((COARSE, budget // 2), (FINE, budget // 4)):
+        best = _descended(counted, best, people, max(1, share // (size + 1)))
     off, values = objective.at(best, FINE)
     return Fit(values=values, loss=loss(off), evaluations=counted.count + 1)
 
