@@ -22,6 +22,8 @@ DIGITS = 4  # of a fitted number: more would be chance
 def write_fit(targets: Targets, found: Fit, path: Path) -> tuple[Path, Path]:
     """Write the people to `path`, and a study of them beside it; only what is not as by default is in either.
 
+    Layouts and paradigms are left to the default, which is the paper's.
+
     Raises StudyError for a place that cannot be written to.
     """
     study = changed(targets.study, {name: float(f"{value:.{DIGITS}g}") for name, value in found.values.items()})
