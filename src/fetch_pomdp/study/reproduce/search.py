@@ -17,7 +17,7 @@ from fetch_pomdp.study.reproduce.cells import cell, loss, reduced, residuals, si
 from fetch_pomdp.study.reproduce.free import OVERHEAD, Free, changed
 from fetch_pomdp.study.reproduce.targets import Targets
 
-COARSE, FINE = 24, 72  # people a layout, each with 18 trials in every cell
+COARSE, FINE = 32, 96  # people a layout, each with 18 trials in every cell
 STEP = 0.06  # for derivatives, in coordinates: what it changes must be more than what is left to chance
 GAIN = 1e-3  # of the loss, below which a step is the last
 Told = Callable[[int, float], None]
