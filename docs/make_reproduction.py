@@ -18,7 +18,7 @@ from fetch_pomdp.study.reproduce.words import markdown, outcome, stories_head
 
 ROOT = Path(__file__).parent.parent
 PAGE = ROOT / "docs" / "reproduction.md"
-STUDIES, PEOPLE, SEED = 40, 48, 2017
+STUDIES, PEOPLE, SEED = 40, 24, 2017
 
 
 def tables(names: list[str]) -> dict[str, str]:

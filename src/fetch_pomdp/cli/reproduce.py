@@ -69,7 +69,7 @@ def compare(
 def stories(
     targets: TargetsFile = TARGETS,
     config: Config = FITTED,
-    people: Annotated[int, typer.Option(min=1, help="People a layout, each with 18 trials in every cell.")] = 48,
+    people: Annotated[int, typer.Option(min=1, help="People a layout, each with 18 trials in every cell.")] = 24,
     seed: Seed = None,
     workers: Workers = 1,
 ) -> None:
