@@ -7,7 +7,7 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fetch_pomdp.study.analysis.hypotheses import hypotheses
+from fetch_pomdp.study.analysis.hypotheses import Clause, hypotheses
 from fetch_pomdp.study.analysis.plan import Plan
 from fetch_pomdp.study.analysis.trials import checked
 from fetch_pomdp.study.crew import Crew
@@ -84,7 +84,12 @@ def _held(parts: Sequence[Sequence[Trial]]) -> tuple[Held, ...]:
             claim=same[0].claim,
             studies=len(same),
             people=sum(clause.verdict == "holds" for clause in same),
-            pairs=sum(clause.paper is True for clause in same),
+            pairs=sum(map(_confirmed, same)),
         )
         for same in zip(*judged, strict=True)
     )
+
+
+def _confirmed(clause: Clause) -> bool:
+    """Whether the paper's reading confirms a clause; where no pair of trials differs there is nothing against "as"."""
+    return clause.kind == "no worse" if clause.paper is None else clause.paper

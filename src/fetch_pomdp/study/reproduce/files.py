@@ -46,7 +46,7 @@ def _lines(given: People | Clock, default: People | Clock, why: Mapping[str, str
     """Return a line for each field that is not as by default, with the reason of one that was free."""
     fields: dict[str, Any] = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
     return [
-        f"{name} = {json.dumps(value)}  # {f'fitted: {why[name]}' if name in why else 'fixed'}"
+        f"{name} = {json.dumps(value)}  # {f'fitted: {why[name]}' if name in why else 'fixed, as the targets say'}"
         for name, value in fields.items()
         if value != getattr(default, name)
     ]

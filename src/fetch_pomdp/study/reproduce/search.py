@@ -28,7 +28,7 @@ class Fit:
     """What a search found."""
 
     values: Mapping[str, float]  # of the free parameters
-    loss: float  # at these, with the people that the search ended with
+    loss: float  # at these, with FINE people a layout
     evaluations: int
 
 
@@ -78,6 +78,8 @@ def fit(
     A quarter of the evaluations goes to the start and a Latin hypercube over the ranges, half to least squares from
     the best of them, a quarter to least squares with three times as many people.
 
+    The fit is the best point that so many people met, which may be one of a derivative: the loss is not smooth.
+
     Choice: Gauss-Newton's derivatives (SciPy's trust region) rather than a simplex or an evolution: there are few
     parameters, each evaluation is thousands of interactions, and the loss is a sum of squares.
 
@@ -94,22 +96,27 @@ def fit(
     best = min(points, key=lambda point: loss(counted.residuals(point, COARSE)))
     for people, share in ((COARSE, budget // 2), (FINE, budget // 4)):
         best = _descended(counted, best, people, max(1, share // (size + 1)))
-    off, values = objective.at(best, FINE)
-    return Fit(values=values, loss=loss(off), evaluations=counted.count + 1)
+    return counted.fit()
 
 
 class _Counted:
-    """The objective, telling how often it was asked and how well it went."""
+    """The objective, telling how often it was asked and how well it went, and keeping the best with many people."""
 
     def __init__(self, objective: Objective, told: Told) -> None:
         self._objective, self._told = objective, told
-        self.count = 0
+        self._count, self._best = 0, (float("inf"), dict[str, float]())
 
     def residuals(self, point: Vector, people: int) -> Vector:
-        off, _ = self._objective.at(point, people)
-        self.count += 1
-        self._told(self.count, loss(off))
+        off, values = self._objective.at(point, people)
+        self._count += 1
+        if people == FINE and loss(off) < self._best[0]:
+            self._best = loss(off), values
+        self._told(self._count, loss(off))
         return off
+
+    def fit(self) -> Fit:
+        least, values = self._best
+        return Fit(values=values, loss=least, evaluations=self._count)
 
 
 def _descended(counted: _Counted, start: Vector, people: int, steps: int) -> Vector:
