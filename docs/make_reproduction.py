@@ -5,7 +5,6 @@ python docs/make_reproduction.py [compare] [stories]
 
 from __future__ import annotations
 
-import re
 import sys
 from pathlib import Path
 
@@ -37,8 +36,9 @@ def main() -> None:
     page = PAGE.read_text(encoding="utf-8")
     for name, text in tables(sys.argv[1:] or ["compare", "stories"]).items():
         print(text, flush=True)
-        between = rf"(<!-- {name} -->\n).*?(<!-- end of {name} -->\n)"
-        page = re.sub(between, lambda found, text=text: f"{found[1]}{text}\n{found[2]}", page, flags=re.DOTALL)
+        begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->\n"
+        before, rest = page.split(begin)
+        page = f"{before}{begin}{text}\n{end}{rest.split(end)[1]}"
     PAGE.write_text(page, encoding="utf-8")
 
 

@@ -71,6 +71,14 @@ STORIES = (
         "the robot's arm misread, the same way in a trial", "rad, each axis", (0.01, 0.015, 0.02, 0.03),
         lambda _, angle: {"reading": angle, "reading_correlation": 1.0},
     ),
+    Story(
+        "answers that come 1.5 s later than usual", "chance", (0.05, 0.2, 0.4),
+        lambda _, chance: {"p_late": chance},
+    ),
+    Story(
+        "a robot that does not listen long before it asks again", "s", (0.9, 0.7, 0.5, 0.3),
+        lambda _, listen: {"listen": listen},
+    ),
 )  # fmt: skip
 
 
