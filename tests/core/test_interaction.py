@@ -161,9 +161,9 @@ def test_after_the_end_of_the_streams_there_is_silence() -> None:
 
 def test_times_are_parameters() -> None:
     agent, ears = Agent("ambiguous", Script(Wait(), Point(1))), Ears()
-    events = list(interact(agent, Arm(), ears, None, timing=Timing(wait=0.5, question=2.0)))
-    assert [event.time for event in events] == pytest.approx([0.0, 0.5, 2.0, 2.5, 2.5])
-    assert ears.asked_until == pytest.approx([0.5, 2.0, 2.5])
+    events = list(interact(agent, Arm(), ears, None, timing=Timing(wait=0.5, question=2.0, listen=0.75)))
+    assert [event.time for event in events] == pytest.approx([0.0, 0.5, 1.75, 2.5, 2.5])
+    assert ears.asked_until == pytest.approx([0.5, 1.75, 2.5])
 
 
 @pytest.mark.parametrize(("wait", "question"), [(0.0, 1.0), (-1.0, 1.0), (1.0, 0.9), (math.nan, 1.0), (1.0, math.inf)])

@@ -31,7 +31,7 @@ from fetch_pomdp.study import experiment
 from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.design import assignments
 from fetch_pomdp.study.encounter import Encounter
-from fetch_pomdp.study.experiment import run
+from fetch_pomdp.study.experiment import play, run
 from fetch_pomdp.study.record import NAME, read_trials
 from tests.study.small import small
 
@@ -56,6 +56,15 @@ def test_the_trials_are_those_assigned(whole: dict[str, bytes], tmp_path: Path) 
     assert rows == [(a.person, a.layout, a.paradigm, a.desired, a.order) for a in assignments(LOGGED)]
     assert all(trial.correct == (trial.picked == trial.desired) for trial in trials)
     assert all(trial.time > 0 for trial in trials)
+
+
+def test_the_overhead_is_added_to_every_time_and_changes_nothing_else() -> None:
+    study = small()
+    late = dataclasses.replace(study, clock=dataclasses.replace(study.clock, overhead=2.5))
+    for assignment in assignments(study):
+        one, other = (play(of, None, assignment).trial for of in (study, late))
+        assert other.time == pytest.approx(one.time + 2.5)
+        assert dataclasses.replace(other, time=one.time) == one
 
 
 def test_a_log_tells_of_its_trial_and_replays_the_same_decisions(whole: dict[str, bytes], tmp_path: Path) -> None:
@@ -105,7 +114,7 @@ def test_whatever_a_kill_leaves_is_completed_to_the_same_bytes(
 CODE = """
 import sys
 from pathlib import Path
-from fetch_pomdp.study.experiment import run
+from fetch_pomdp.study.experiment import play, run
 from tests.study.small import small
 run(small(people=30, trials=2), Path(sys.argv[1]))
 """

@@ -15,6 +15,7 @@ from rich.table import Table
 
 from fetch_pomdp.adapters.speech.spoken import SpokenWords
 from fetch_pomdp.cli.options import Json, ModelFile, Seed, as_json, warm_up
+from fetch_pomdp.cli.reproduce import compare, fit, stories
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.files.models import with_model
@@ -32,6 +33,9 @@ from fetch_pomdp.study.table import read_table, write_table
 FOLDER, REPORT = Path("study"), "report"
 
 app = typer.Typer(rich_markup_mode=None)
+app.command()(fit)
+app.command()(compare)
+app.command()(stories)
 
 
 @app.callback(invoke_without_command=True)

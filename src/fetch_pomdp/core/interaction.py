@@ -3,7 +3,7 @@
 Time is that of the sensors' streams, in seconds. A step begins with an action and ends with listening:
 
 - A wait listens for `Timing.wait`.
-- A question takes `Timing.question`, of which the last `Timing.wait` is listening.
+- A question takes `Timing.question`, of which the last `Timing.listen` is listening.
 - The words that end inside a step are its utterance; the median of its pointing frames is its gesture.
 
 Choice: answers that end before the question has been asked cannot answer it; they belong to the step before, and are
@@ -41,13 +41,16 @@ class Timing:
     """How long the robot's steps last. Raises ModelError for a question shorter than the listening at its end."""
 
     wait: float = 1.0  # s
-    question: float = 2.8  # s, asking and then listening for `wait`
+    question: float = 2.8  # s, asking and then listening for `listen`
     silence: float = 4.0  # s
+    listen: float = 1.0  # s
 
     def __post_init__(self) -> None:
-        if not (0 < self.wait <= self.question < float("inf") and self.silence > 0):
-            found = f"found wait {self.wait!r}, question {self.question!r}, silence {self.silence!r}"
-            raise ModelError(f"{found}, expected 0 < wait <= question and 0 < silence, in seconds", field="timing")
+        times = (self.wait, self.listen, self.question, self.silence)
+        if not (all(0 < time < float("inf") for time in times) and self.listen <= self.question):
+            found = f"found wait {self.wait!r}, listen {self.listen!r}, question {self.question!r}"
+            expected = "expected 0 < wait, 0 < listen <= question and 0 < silence, in seconds"
+            raise ModelError(f"{found}, silence {self.silence!r}, {expected}", field="timing")
 
 
 class Senses:
@@ -93,9 +96,10 @@ def interact(
     timing = timing or Timing()
     senses, now, silence = Senses(agent.problem, ears, eyes), 0.0, 0.0
     for _ in range(most_steps):
-        decision = agent.decide()
+        decision, listening = agent.decide(), timing.wait
         if isinstance(decision.action, Point):
-            now += timing.question - timing.wait
+            now += timing.question - timing.listen
+            listening = timing.listen
         outcome = _carry_out(decision.action, agent, robot)
         if isinstance(decision.action, Point) and (early := senses.answers(now)):
             agent.take(early)
@@ -107,7 +111,7 @@ def interact(
             if acted.done:
                 return
             robot.say("I could not hand it over. Please tell me again.")
-        now += timing.wait
+        now += listening
         observed = senses.perceive(now)
         agent.take(observed)
         silence = silence + timing.wait if isinstance(acted.action, Wait) and not observed.observation.words else 0.0

@@ -42,7 +42,7 @@ def play(study: Study, speech: Speech | None, assignment: Assignment) -> Played:
     channel = None if speech is None else _channel(speech, header.scene.words)
     desired = header.scene.index(assignment.desired)
     met = encounter(header.agent(), desired, traits, study.clock, world, channel=channel)
-    trial = scored(assignment, met.events, header.scene, met.begun)
+    trial = scored(assignment, met.events, header.scene, met.begun - study.clock.overhead)
     return Played(trial, logged(header, met.events) if study.logs else None)
 
 
