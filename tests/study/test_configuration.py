@@ -90,6 +90,10 @@ def test_an_empty_file_is_the_papers_study(tmp_path: Path) -> None:
     assert study.layouts["ambiguous"] == Scene.load("ambiguous")
 
 
+def test_the_default_people_and_clock_are_those_fitted_to_the_paper() -> None:
+    assert load_study(Path(__file__).parents[2] / "studies" / "fitted.toml") == Study()
+
+
 def test_the_file_in_the_documentation_is_the_papers_study_and_a_robot_more(tmp_path: Path) -> None:
     page = (Path(__file__).parents[2] / "docs" / "study.md").read_text()
     (block,) = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
@@ -134,7 +138,7 @@ def changes() -> dict[str, dict[str, Any]]:
     return {
         "people": {"people": 17},
         "population.patience": {"population": People(patience=6.9)},
-        "clock.arm": {"clock": Clock(arm=1.1)},
+        "clock.arm": {"clock": dataclasses.replace(Study().clock, arm=1.1)},
         "paradigms.fetch.parameters.depth": {
             "paradigms": {**PAPER, "fetch": Paradigm(planner="sparse", parameters={"depth": 3})}
         },
