@@ -32,6 +32,7 @@ from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.design import assignments
 from fetch_pomdp.study.encounter import Encounter
 from fetch_pomdp.study.experiment import play, run
+from fetch_pomdp.study.from_logs import trials_of
 from fetch_pomdp.study.record import NAME, read_trials
 from tests.study.small import small
 
@@ -60,11 +61,22 @@ def test_the_trials_are_those_assigned(whole: dict[str, bytes], tmp_path: Path) 
 
 def test_the_overhead_is_added_to_every_time_and_changes_nothing_else() -> None:
     study = small()
-    late = dataclasses.replace(study, clock=dataclasses.replace(study.clock, overhead=2.5))
+    late = dataclasses.replace(study, clock=dataclasses.replace(study.clock, overhead=study.clock.overhead + 2.5))
     for assignment in assignments(study):
         one, other = (play(of, None, assignment).trial for of in (study, late))
         assert other.time == pytest.approx(one.time + 2.5)
         assert dataclasses.replace(other, time=one.time) == one
+
+
+def test_the_logs_give_the_trials_again(whole: dict[str, bytes], tmp_path: Path) -> None:
+    """But for times, which a log has to the millisecond."""
+    (tmp_path / NAME).write_bytes(whole[NAME])
+    for trial in read_trials(tmp_path / NAME):
+        path = tmp_path / "log.jsonl"
+        path.write_bytes(whole[f"logs/{trial.person:04}-{trial.order:03}.jsonl"])
+        (again,) = trials_of([(str(path), read_recording(path))])
+        assert again.time == pytest.approx(trial.time, abs=2e-3)
+        assert dataclasses.replace(again, time=trial.time) == trial
 
 
 def test_a_log_tells_of_its_trial_and_replays_the_same_decisions(whole: dict[str, bytes], tmp_path: Path) -> None:

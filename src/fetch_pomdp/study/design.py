@@ -125,6 +125,10 @@ class Study:
             parameters=robot.parameters,
             seed=int(stream(self, ROBOT, assignment.person, assignment.order).integers(2**63)),
             target=assignment.desired,
+            person=assignment.person,
+            layout=name,
+            paradigm=assignment.paradigm,
+            order=assignment.order,
         )
 
     def layout_of(self, person: int) -> str:

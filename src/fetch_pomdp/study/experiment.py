@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import io
 import itertools
@@ -42,8 +43,9 @@ def play(study: Study, speech: Speech | None, assignment: Assignment) -> Played:
     channel = None if speech is None else _channel(speech, header.scene.words)
     desired = header.scene.index(assignment.desired)
     met = encounter(header.agent(), desired, traits, study.clock, world, channel=channel)
-    trial = scored(assignment, met.events, header.scene, met.begun - study.clock.overhead)
-    return Played(trial, logged(header, met.events) if study.logs else None)
+    begun = met.begun - study.clock.overhead
+    trial = scored(assignment, met.events, header.scene, begun)
+    return Played(trial, logged(dataclasses.replace(header, begun=begun), met.events) if study.logs else None)
 
 
 @functools.lru_cache
