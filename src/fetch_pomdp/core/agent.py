@@ -70,6 +70,11 @@ class Agent:
         return self._belief.probabilities
 
     @property
+    def posterior(self) -> Belief:
+        """The belief as the distribution that Bayes' rule updates; immutable, so that any thread may keep it."""
+        return self._belief
+
+    @property
     def evidence(self) -> Evidence:
         """What words, answers and pointing have each contributed to the belief."""
         return self._evidence
@@ -131,11 +136,16 @@ class Agent:
         self._steps += 1
 
     def take(self, event: Event) -> None:
-        """Go on from an event: an observation, or an action, which counts if it was done. Live and replayed alike."""
+        """Go on from an event: an observation, or an action, which counts if it was done. Live and replayed alike.
+
+        A pick that was stopped counts as a question about its item (`interaction`).
+        """
         if isinstance(event, Observed):
             self.update(event.observation)
         elif event.done:
             self.did(event.action)
+        elif event.objected and isinstance(event.action, Pick):
+            self.did(Point(event.action.item))
 
     @overload
     def item(self, action: Point | Pick) -> Item: ...
