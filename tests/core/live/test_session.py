@@ -30,7 +30,7 @@ def after(*utterances: str) -> list[float]:
     agent = Agent("ambiguous", Script())
     for utterance in utterances:
         agent.observe(utterance)
-    return agent.belief.tolist()
+    return list(agent.belief)
 
 
 def test_typed_words_move_the_belief_at_once_and_are_committed_when_the_step_ends() -> None:
@@ -87,7 +87,7 @@ def test_an_answer_while_the_robot_still_asks_counts() -> None:
     stage = Stage(Point(2))
     stage.word(1.5, "no")
     stage.run()
-    assert [event.time for event in stage.acted][0] == pytest.approx(1.8)
+    assert stage.acted[0].time == pytest.approx(1.8)
     assert [event.observation.words for event in stage.observed] == [("no",)]
     assert stage.agent.belief[2] < 0.01
 
@@ -221,7 +221,7 @@ def test_a_robot_that_breaks_has_failed() -> None:
     stage = Stage(Pick(1), Pick(2))
     pick = stage.robot.pick
 
-    def broken(item: Item) -> Outcome:
+    def broken(item: Item) -> Outcome:  # noqa: ARG001
         stage.robot.pick = pick  # type: ignore[method-assign]
         raise OSError("no arm")
 
