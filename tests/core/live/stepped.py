@@ -98,7 +98,9 @@ class Stage:
 
     def final(self, at: float, *texts: str) -> None:
         """At a time, the recogniser ends an utterance whose words ended a tenth of a second before each other."""
-        words = [Word(text, at - 0.1 * k - 0.1, at - 0.1 * k) for k, text in zip(range(len(texts))[::-1], texts, strict=True)]
+        words = [
+            Word(text, at - 0.1 * k - 0.1, at - 0.1 * k) for k, text in zip(range(len(texts))[::-1], texts, strict=True)
+        ]
 
         def push() -> None:
             for word in words:

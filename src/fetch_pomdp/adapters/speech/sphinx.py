@@ -42,6 +42,7 @@ class SphinxTranscriber:
     def words(self, utterance: Utterance) -> list[Word]:
         """Return the words with their times on the clock of the utterance."""
         decoder = self._decoder
+        decoder.reinit_feat()  # or the noise of the utterance before, perhaps of someone else, would count in this one
         decoder.start_utt()
         decoder.process_raw(_prepared(utterance.samples).tobytes(), full_utt=True)
         decoder.end_utt()

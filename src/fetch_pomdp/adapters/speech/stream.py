@@ -17,8 +17,10 @@ import numpy as np
 
 from fetch_pomdp.adapters.speech.audio import RATE, Samples
 from fetch_pomdp.adapters.speech.transcriber import Transcriber
-from fetch_pomdp.adapters.speech.utterances import FRAME, Cutter, Detector, Utterance
+from fetch_pomdp.adapters.speech.utterances import FRAME, PADDING, Cutter, Detector, Utterance
 from fetch_pomdp.core.ports import Word
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.words import STOPS
 from fetch_pomdp.errors import AudioError
 
 logger = logging.getLogger(__name__)
@@ -70,7 +72,7 @@ class Stream:
                 self._finish(utterance)
         if self._cutter.speaking and self._hypothesis is None:
             self._guess(())
-            self._next = self._cutter.time + PERIOD
+            self._next = self._cutter.begun + PADDING * FRAME / RATE + PERIOD
 
     def guess(self) -> None:
         """Say what has been said so far in the utterance that goes on: anew if that is due."""
@@ -193,9 +195,14 @@ class StreamingRecognizer:
             self._stream.end()
 
 
+def listened_for(scene: Scene) -> list[str]:
+    """Return the words for the vocabulary of a Transcriber: those of the items, and those that stop a hand-over."""
+    return list(dict.fromkeys([*scene.words, *sorted(STOPS)]))
+
+
 def unmuted(samples: Samples, begin: float, muted: Sequence[tuple[float, float]]) -> list[tuple[Samples, float]]:
     """Return the parts of the sound, with their beginnings (s), that lie in no muted stretch."""
-    parts = [(samples, begin)]
+    parts = [(samples, begin)] if len(samples) else []
     for first, last in muted:
         parts = [piece for part, start in parts for piece in _outside(part, start, first, last)]
     return parts

@@ -87,7 +87,7 @@ class Cutter:
 
     def so_far(self) -> Utterance:
         """Return the utterance that goes on, up to now."""
-        return Utterance(self._start, np.concatenate(self._kept))
+        return Utterance(self.begun, np.concatenate(self._kept))
 
     def end(self) -> Utterance | None:
         """End the utterance that goes on and return it; forget what was said before if there is none."""
@@ -97,7 +97,8 @@ class Cutter:
         return given
 
     @property
-    def _start(self) -> float:
+    def begun(self) -> float:
+        """When (s) the utterance that goes on began."""
         return (self._count - len(self._kept)) * FRAME / RATE
 
     def _above_floor(self, frame: Samples) -> float:
@@ -107,7 +108,7 @@ class Cutter:
         return self._levels[-1] - min(self._levels)
 
     def _give(self, count: int) -> Utterance:
-        start = self._start
+        start = self.begun
         given, self._kept = self._kept[:count], self._kept[count:]
         return Utterance(start, np.concatenate(given))
 

@@ -90,6 +90,7 @@ def _exchange(process: subprocess.Popen[bytes], request: bytes) -> dict[str, Any
         answer: dict[str, Any] = json.loads(back.readline())
     except (OSError, ValueError):  # ValueError: no JSON, what is left of a line when the process dies
         process.kill()
+        process.wait()
         raise AudioError("found no answer, expected words; it is started anew", source=NAME) from None
     finally:
         timer.cancel()
