@@ -34,7 +34,10 @@ IDLE = 0.5  # s after which a recogniser that has nothing to do says that it liv
 
 
 class Stream:
-    """Cuts and transcribes a stream, in the thread that feeds it. Times are those of whoever feeds it, in seconds."""
+    """Cuts and transcribes a stream, in the thread that feeds it. Times are those of whoever feeds it, in seconds.
+
+    timer: measures (s) how long a hypothesis takes.
+    """
 
     def __init__(
         self,
@@ -42,7 +45,9 @@ class Stream:
         detector: Detector,
         on_partial: Callable[[Hypothesis], None],
         on_word: Callable[[Word], None],
+        timer: Callable[[], float] = machine.monotonic,
     ) -> None:
+        self._timer = timer
         self._transcriber, self._cutter = transcriber, Cutter(detector)
         self._on_partial, self._on_word = on_partial, on_word
         self._rest = np.empty(0, np.int16)
@@ -79,9 +84,9 @@ class Stream:
         if not self._cutter.speaking:
             return
         if self._cutter.time >= self._next:
-            begun = machine.monotonic()
+            begun = self._timer()
             self._guess(self._words(self._cutter.so_far()))
-            self._next = self._cutter.time + PERIOD + machine.monotonic() - begun
+            self._next = self._cutter.time + PERIOD + self._timer() - begun
         else:
             self._guess(self._hypothesis)
 
