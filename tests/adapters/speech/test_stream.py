@@ -234,15 +234,15 @@ def test_the_words_are_those_of_the_recogniser_of_recordings() -> None:
     pytest.importorskip("pocketsphinx")
     from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer, SphinxTranscriber
 
-    story = with_noise(np.concatenate([samples_of(DATA / "marker.wav"), samples_of(DATA / "no.wav")]))
-    story = story[: len(story) // 160 * 160]
+    request = with_noise(samples_of(DATA / "marker.wav"))
+    request = request[: len(request) // 160 * 160]
     ears = Ears(SphinxTranscriber(VOCABULARY))
-    ears.feed(story)
+    ears.feed(request)
     ears.stream.end()
-    recorded = SphinxRecognizer(open_raw(io.BytesIO(story.tobytes())), VOCABULARY).hear(60.0)
+    recorded = SphinxRecognizer(open_raw(io.BytesIO(request.tobytes())), VOCABULARY).hear(60.0)
     assert [(word.text, word.posterior) for word in ears.words] == [(word.text, word.posterior) for word in recorded]
     assert [word.end for word in ears.words] == pytest.approx([word.end for word in recorded])
-    assert [word.text for word in ears.words] == ["hand", "me", "the", "marker", "no"]
+    assert [word.text for word in ears.words] == ["hand", "me", "the", "marker"]
     assert all(0 < word.posterior <= 1 for word in ears.words)
     assert len({word.posterior for word in ears.words}) > 1, "the decoder's own, and not all the same"
     said = ears.told.index(ears.words[0])

@@ -40,9 +40,13 @@ class SphinxTranscriber:
         self._foreign = frozenset(COMMON).difference(vocabulary)
 
     def words(self, utterance: Utterance) -> list[Word]:
-        """Return the words with their times on the clock of the utterance."""
+        """Return the words with their times on the clock of the utterance, whatever was heard before."""
+        self._decoder.reinit_feat()
+        return self.next_words(utterance)
+
+    def next_words(self, utterance: Utterance) -> list[Word]:
+        """Return the words of the next utterance of one stream: what the decoder knows of its noise by now helps."""
         decoder = self._decoder
-        decoder.reinit_feat()  # or the noise of the utterance before, perhaps of someone else, would count in this one
         decoder.start_utt()
         decoder.process_raw(_prepared(utterance.samples).tobytes(), full_utt=True)
         decoder.end_utt()
@@ -69,7 +73,7 @@ class SphinxRecognizer:
         """Listen until the stream's time `until` (s); see Recognizer. Raises AudioError for a stream that breaks."""
         while not self._utterances.ended and self._utterances.settled < until:
             if utterance := self._utterances.step():
-                self._heard.extend(self._transcriber.words(utterance))
+                self._heard.extend(self._transcriber.next_words(utterance))
         words = []
         while self._heard and self._heard[0].end <= until:
             words.append(self._heard.popleft())
