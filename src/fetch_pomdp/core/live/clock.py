@@ -20,13 +20,13 @@ class Clock(Protocol):
 
 
 class RealClock:
-    """The machine's own clock, which never goes back; it begins when it is made."""
+    """The machine's own clock, which never goes back; when it is made it shows `time` (s)."""
 
-    def __init__(self) -> None:
-        self._begun = machine.monotonic()
+    def __init__(self, time: float = 0.0) -> None:
+        self._begun = machine.monotonic() - time
 
     def now(self) -> float:
-        """Return the time (s) since the clock was made."""
+        """Return the time (s) since the clock showed 0."""
         return machine.monotonic() - self._begun
 
     def wait_until(self, time: float, wake: Event) -> None:
