@@ -136,16 +136,11 @@ class Agent:
         self._steps += 1
 
     def take(self, event: Event) -> None:
-        """Go on from an event: an observation, or an action, which counts if it was done. Live and replayed alike.
-
-        A pick that was stopped counts as a question about its item (`interaction`).
-        """
+        """Go on from an event: an observation, or what an action came to. Live and replayed alike."""
         if isinstance(event, Observed):
             self.update(event.observation)
-        elif event.done:
-            self.did(event.action)
-        elif event.objected and isinstance(event.action, Pick):
-            self.did(Point(event.action.item))
+        elif event.counts_as is not None:
+            self.did(event.counts_as)
 
     @overload
     def item(self, action: Point | Pick) -> Item: ...
