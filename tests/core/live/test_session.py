@@ -305,7 +305,7 @@ class QuickRobot:
 def test_the_real_clock_and_threads() -> None:
     inbox, told = Inbox(), list[Update]()
     agent = Agent("ambiguous", Script(Wait(), Point(2)))
-    timing = Timing(wait=0.3, question=0.4, overlap=0.05)
+    timing = Timing(wait=0.3, listen=0.3, question=0.4, overlap=0.05)
     session = LiveSession(agent, QuickRobot(), inbox, listener=told.append, timing=timing)
     thread = threading.Thread(target=session.run)
     thread.start()
