@@ -172,6 +172,29 @@ def test_times_that_are_none(wait: float, question: float) -> None:
         Timing(wait=wait, question=question)
 
 
+@pytest.mark.parametrize("overlap", [-0.1, 1.9, math.nan])
+def test_an_overlap_that_is_none(overlap: float) -> None:
+    with pytest.raises(ModelError, match=r"^timing: found an overlap"):
+        Timing(overlap=overlap)
+
+
+def test_an_answer_to_a_question_whose_words_have_begun_is_read_with_it() -> None:
+    # The questions end at 1.8 and 4.6 s; with an overlap of 0.8 s they can be answered from 1.0 and 3.8 s on.
+    agent = Agent("ambiguous", Script(Point(2), Point(4)))
+    ears = Ears(("no", 1.1), ("no", 3.7), ("yes", 3.9))
+    events = list(interact(agent, Arm(), ears, None, timing=Timing(overlap=0.8)))
+    assert [event.observation.words for event in observed(events)] == [("no",), ("no",), ("yes",)]
+    assert agent.belief[2] < 0.001
+    assert agent.belief[4] > 0.9
+
+
+def test_words_that_stop_a_pick_deny_its_item() -> None:
+    agent, events = run(Script(Pick(1), Wait()), Ears(("stop", 0.5), ("stop", 1.5)), arm=Arm(Outcome.STOPPED))
+    assert [event.observation.words for event in observed(events)] == [("no",), ("stop",)]
+    assert agent.asked == 1
+    assert agent.belief[1] < 0.01
+
+
 def test_frames_of_a_step_become_one_ray() -> None:
     eyes = Eyes(*[frame(0.1 * k, towards(0.075)) for k in range(1, 11)], frame(1.05, towards(-0.375)))
     agent, events = run(Script(Wait(), Wait()), None, eyes)

@@ -155,9 +155,10 @@ def test_a_replay_is_the_life_of_the_agent(tmp_path: Path) -> None:
     live.observe("the marker")
     live.did(Point(2))
     live.observe("no", head=(0, 0, 1.6), wrist=(0, 1, 1.3))
+    live.did(Point(3))  # what a pick that was stopped counts as
     live.observe()
     assert agent.belief == pytest.approx(live.belief)
-    assert agent.asked == live.asked == 2
+    assert agent.asked == live.asked == 3
     assert agent.decide().action == live.decide().action
     assert agent.decide().wait == live.decide().wait
     assert not recording.over

@@ -70,6 +70,11 @@ class Agent:
         return self._belief.probabilities
 
     @property
+    def posterior(self) -> Belief:
+        """The belief as the distribution that Bayes' rule updates; immutable, so that any thread may keep it."""
+        return self._belief
+
+    @property
     def evidence(self) -> Evidence:
         """What words, answers and pointing have each contributed to the belief."""
         return self._evidence
@@ -131,11 +136,11 @@ class Agent:
         self._steps += 1
 
     def take(self, event: Event) -> None:
-        """Go on from an event: an observation, or an action, which counts if it was done. Live and replayed alike."""
+        """Go on from an event: an observation, or what an action came to. Live and replayed alike."""
         if isinstance(event, Observed):
             self.update(event.observation)
-        elif event.done:
-            self.did(event.action)
+        elif event.counts_as is not None:
+            self.did(event.counts_as)
 
     @overload
     def item(self, action: Point | Pick) -> Item: ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from fetch_pomdp.core.action import Action
+from fetch_pomdp.core.action import Action, Pick, Point
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Outcome, Word
@@ -41,6 +41,18 @@ class Acted:
     def done(self) -> bool:
         """Whether the action was carried out."""
         return self.outcome is Outcome.DONE
+
+    @property
+    def objected(self) -> bool:
+        """Whether this is a pick that was stopped: the person saw what the robot reached for, and did not want it."""
+        return isinstance(self.action, Pick) and self.outcome is Outcome.STOPPED
+
+    @property
+    def counts_as(self) -> Action | None:
+        """The action of the model that it came to: a question if it was objected to, None if it was not done."""
+        if isinstance(self.action, Pick) and self.objected:
+            return Point(self.action.item)
+        return self.action if self.done else None
 
 
 Event: TypeAlias = Observed | Acted

@@ -8,6 +8,11 @@ Time is that of the sensors' streams, in seconds. A step begins with an action a
 
 Choice: answers that end before the question has been asked cannot answer it; they belong to the step before, and are
 read with the i_r of that step. Other words of that time mean the same in either step, and are read with the later one.
+In real life the arm shows the item before the voice has ended: an answer that ends within `Timing.overlap` before the
+end of the question answers it.
+
+Choice: a pick that the person stopped was shown to them like a question, and they objected: its item is i_r from then
+on, and the words they stopped it with that the model does not know ("stop", "wrong") are read as "no".
 
 Choice: after `Timing.silence` of waits without a word the robot says that it is listening: a person who has said all
 there is to say cannot know that it waits for more, and the paper saw interactions come to a standstill there (Section
@@ -16,8 +21,9 @@ V).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -28,12 +34,17 @@ from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import nearest_angles
 from fetch_pomdp.core.simulation import MOST_STEPS
-from fetch_pomdp.core.words import RESPONSES, tokenize
+from fetch_pomdp.core.words import NEGATIVE, RESPONSES, STOPS, tokenize
 from fetch_pomdp.errors import ModelError
+
+LISTENING = "I am listening."
+FAILED = "I could not hand it over. Please tell me again."
+OBJECTED = "All right, not that one."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +55,7 @@ class Timing:
     question: float = 2.8  # s, asking and then listening for `listen`
     silence: float = 4.0  # s
     listen: float = 1.0  # s
+    overlap: float = 0.0  # s before a question has been asked from which on an answer to it is possible
 
     def __post_init__(self) -> None:
         times = (self.wait, self.listen, self.question, self.silence)
@@ -51,13 +63,39 @@ class Timing:
             found = f"found wait {self.wait!r}, listen {self.listen!r}, question {self.question!r}"
             expected = "expected 0 < wait, 0 < listen <= question and 0 < silence, in seconds"
             raise ModelError(f"{found}, silence {self.silence!r}, {expected}", field="timing")
+        if not 0 <= self.overlap <= self.question - self.listen:
+            found = f"found an overlap of {self.overlap!r} s"
+            raise ModelError(f"{found}, expected one from 0 to question - listen", field="timing")
+
+
+class Pace(Protocol):
+    """Where an interaction's time comes from, and who is told of a decision before it is carried out."""
+
+    def decided(self, decision: Decision) -> None:
+        """Know of a decision; its action begins now."""
+        ...
+
+    def time(self, due: float) -> float:
+        """Return what time (s) it is when that is over which should take until `due` (s)."""
+        ...
+
+
+class StreamPace:
+    """The Pace of recordings and of simulated people: everything ends when it should."""
+
+    def decided(self, decision: Decision) -> None:
+        """Tell nobody."""
+
+    def time(self, due: float) -> float:
+        """Return `due`."""
+        return due
 
 
 class Senses:
     """Ears and eyes, either may be missing, read step by step."""
 
-    def __init__(self, problem: Problem, ears: Recognizer | None, eyes: SkeletonSource | None) -> None:
-        self._problem, self._ears, self._eyes = problem, ears, eyes
+    def __init__(self, problem: Problem, ears: Recognizer | None, eyes: SkeletonSource | None, pace: Pace) -> None:
+        self._problem, self._ears, self._eyes, self._pace = problem, ears, eyes, pace
         self._kept: tuple[Word, ...] = ()
 
     def answers(self, time: float) -> Observed | None:
@@ -67,17 +105,26 @@ class Senses:
         self._kept += tuple(word for word in words if RESPONSES.isdisjoint(tokenize(word.text)))
         return Observed(Observation(texts(answers)), answers, time) if answers else None
 
-    def perceive(self, time: float) -> Observed:
-        """Return what was said and seen since the last call, without what was given as answers."""
-        words = self._kept + (tuple(self._ears.hear(time)) if self._ears else ())
+    def perceive(self, due: float, reading: Callable[[Sequence[Word]], tuple[str, ...]]) -> Observed:
+        """Listen until `due` (s); return what was said and seen since the last call, without what was given as answers.
+
+        reading: makes the words that the model reads of those that were heard.
+        """
+        words = self._kept + (tuple(self._ears.hear(due)) if self._ears else ())
         self._kept = ()
+        time = self._pace.time(due)
         frames = self._eyes.see(time) if self._eyes else ()
-        return Observed(Observation(texts(words), median_ray(frames, self._problem)), words, time)
+        return Observed(Observation(reading(words), median_ray(frames, self._problem)), words, time)
 
 
 def texts(words: Sequence[Word]) -> tuple[str, ...]:
     """Return the words of an utterance as they were heard."""
     return tuple(text for word in words for text in tokenize(word.text))
+
+
+def objections(words: Sequence[Word]) -> tuple[str, ...]:
+    """Return the words of an utterance that stopped a pick, as the model knows them."""
+    return tuple(NEGATIVE[0] if text in STOPS else text for text in texts(words))
 
 
 def interact(
@@ -88,20 +135,23 @@ def interact(
     *,
     timing: Timing | None = None,
     most_steps: int = MOST_STEPS,
+    pace: Pace | None = None,
 ) -> Iterator[Event]:
     """Run an interaction and yield what happens as it happens; it ends with a pick that was done, or after most_steps.
 
-    A pick that failed or was stopped ends nothing: the robot says so, listens for a wait, and decides anew.
+    A pick that failed or was stopped ends nothing: the robot says so, listens for a wait, and decides anew. pace: that
+    of recordings unless given.
     """
-    timing = timing or Timing()
-    senses, now, silence = Senses(agent.problem, ears, eyes), 0.0, 0.0
+    timing, pace = timing or Timing(), pace or StreamPace()
+    senses, now, silence = Senses(agent.problem, ears, eyes, pace), pace.time(0.0), 0.0
     for _ in range(most_steps):
-        decision, listening = agent.decide(), timing.wait
+        decision, listening, asking = agent.decide(), timing.wait, 0.0
+        pace.decided(decision)
         if isinstance(decision.action, Point):
-            now += timing.question - timing.listen
-            listening = timing.listen
+            asking, listening = timing.question - timing.listen, timing.listen
         outcome = _carry_out(decision.action, agent, robot)
-        if isinstance(decision.action, Point) and (early := senses.answers(now)):
+        now = pace.time(now + asking)
+        if isinstance(decision.action, Point) and (early := senses.answers(now - timing.overlap)):
             agent.take(early)
             yield early
         acted = Acted(decision.action, outcome, decision, now, decision.passes)
@@ -110,13 +160,14 @@ def interact(
         if isinstance(acted.action, Pick):
             if acted.done:
                 return
-            robot.say("I could not hand it over. Please tell me again.")
-        now += listening
-        observed = senses.perceive(now)
+            robot.say(OBJECTED if acted.objected else FAILED)
+            now = pace.time(now)
+        observed = senses.perceive(now + listening, objections if acted.objected else texts)
+        now = pace.time(now + listening)
         agent.take(observed)
         silence = silence + timing.wait if isinstance(acted.action, Wait) and not observed.observation.words else 0.0
         if silence >= timing.silence:
-            robot.say("I am listening.")
+            robot.say(LISTENING)
             silence = 0.0
         yield observed
 

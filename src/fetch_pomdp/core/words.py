@@ -7,6 +7,7 @@ import re
 POSITIVE = ("yes", "yeah", "sure", "yup")
 NEGATIVE = ("no", "nope", "other", "not")
 RESPONSES = frozenset(POSITIVE + NEGATIVE)
+STOPS = frozenset({"stop", "wrong", "wait", "halt"})  # these stop a hand-over too, and are no responses of the model
 # Words of a request that say nothing about the item: no screen need call them not understood.
 COURTESY = frozenset(
     """a an and can could get give hand have i it like me of one pass please thank that the this to want would

@@ -13,7 +13,8 @@ from numpy.random import default_rng
 
 from fetch_pomdp.adapters.speech import spoken as module
 from fetch_pomdp.adapters.speech.audio import RATE
-from fetch_pomdp.adapters.speech.spoken import AFTER, BEFORE, SpokenWords, in_noise, spoken
+from fetch_pomdp.adapters.speech.espeak import spoken
+from fetch_pomdp.adapters.speech.spoken import AFTER, BEFORE, SpokenWords, in_noise
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.planners.fixed import AlwaysAsk
 from fetch_pomdp.core.ports import Word

@@ -50,6 +50,8 @@ def test_steps_of_an_interaction() -> None:
         NO,
         Acted(Point(3), Outcome.FAILED),  # not asked
         MARKER,
+        Acted(Pick(3), Outcome.STOPPED),  # shown, and objected to
+        NO,
         Acted(Wait()),  # followed by silence that nobody recorded
         Acted(Pick(2)),
     ]
@@ -57,7 +59,8 @@ def test_steps_of_an_interaction() -> None:
         Step(Wait(), None, Observation(("marker", "yes"), ray)),
         Step(Point(1), 1, Observation(("no",))),
         Step(Wait(), 1, Observation(("marker",))),
-        Step(Wait(), 1, Observation()),
+        Step(Point(3), 3, Observation(("no",))),
+        Step(Wait(), 3, Observation()),
     ]
 
 

@@ -32,6 +32,30 @@ OTHER_TALK = 0.45  # share of common words above which an utterance is not meant
 FILLER = ("<", "[")  # how silence and noises are spelt in the decoder's dictionary
 
 
+class SphinxTranscriber:
+    """Finds the words of an utterance. Implements Transcriber. Raises MissingExtraError without pocketsphinx."""
+
+    def __init__(self, vocabulary: Sequence[str]) -> None:
+        self._decoder = _decoder(vocabulary)
+        self._foreign = frozenset(COMMON).difference(vocabulary)
+
+    def words(self, utterance: Utterance) -> list[Word]:
+        """Return the words with their times on the clock of the utterance, whatever was heard before."""
+        self._decoder.reinit_feat()
+        return self.next_words(utterance)
+
+    def next_words(self, utterance: Utterance) -> list[Word]:
+        """Return the words of the next utterance of one stream: what the decoder knows of its noise by now helps."""
+        decoder = self._decoder
+        decoder.start_utt()
+        decoder.process_raw(_prepared(utterance.samples).tobytes(), full_utt=True)
+        decoder.end_utt()
+        segments = [segment for segment in decoder.seg() or () if not segment.word.startswith(FILLER)]
+        words = [_word(segment, utterance.start) for segment in segments]
+        foreign = [word for word in words if word.text in self._foreign]
+        return foreign if len(foreign) > OTHER_TALK * len(words) else words
+
+
 class SphinxRecognizer:
     """Ears over a Sound. Implements Recognizer.
 
@@ -42,29 +66,18 @@ class SphinxRecognizer:
 
     def __init__(self, sound: Sound, vocabulary: Sequence[str]) -> None:
         self._utterances = Utterances(sound)
-        self._decoder = _decoder(vocabulary)
-        self._foreign = frozenset(COMMON).difference(vocabulary)
+        self._transcriber = SphinxTranscriber(vocabulary)
         self._heard: deque[Word] = deque()
 
     def hear(self, until: float) -> list[Word]:
         """Listen until the stream's time `until` (s); see Recognizer. Raises AudioError for a stream that breaks."""
         while not self._utterances.ended and self._utterances.settled < until:
             if utterance := self._utterances.step():
-                self._heard.extend(self._words(utterance))
+                self._heard.extend(self._transcriber.next_words(utterance))
         words = []
         while self._heard and self._heard[0].end <= until:
             words.append(self._heard.popleft())
         return words
-
-    def _words(self, utterance: Utterance) -> list[Word]:
-        decoder = self._decoder
-        decoder.start_utt()
-        decoder.process_raw(_prepared(utterance.samples).tobytes(), full_utt=True)
-        decoder.end_utt()
-        segments = [segment for segment in decoder.seg() or () if not segment.word.startswith(FILLER)]
-        words = [_word(segment, utterance.start) for segment in segments]
-        foreign = [word for word in words if word.text in self._foreign]
-        return foreign if len(foreign) > OTHER_TALK * len(words) else words
 
 
 def _word(segment: Segment, start: float) -> Word:

@@ -7,27 +7,22 @@ by 6 dB at each doubling of distance. No echo, no other talk, and synthetic voic
 from __future__ import annotations
 
 import math
-import shutil
-import subprocess
-import tempfile
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 from numpy.random import Generator
 
-from fetch_pomdp.adapters.speech.audio import RATE, Samples, open_raw, open_wav
+from fetch_pomdp.adapters.speech.audio import RATE, Samples, open_raw
+from fetch_pomdp.adapters.speech.espeak import spoken
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
 from fetch_pomdp.core.ports import Word
-from fetch_pomdp.errors import AudioError, MissingExtraError
 
 VOICES = ("en-us", "en-gb", "en-us+f3", "en-us+m3", "en-us+f2")
 BEFORE, AFTER = 0.4, 0.7  # s of the room around an utterance
 SLOWEST, FASTEST = 80, 300  # words a minute that espeak-ng can say
-LONGEST = 60  # s
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,25 +59,6 @@ class SpokenWords:
             for word in ears.hear(math.inf)
             if word.start >= BEFORE / 2
         )
-
-
-def spoken(text: str, voice: str, speed: int) -> Samples:
-    """Say a text with espeak-ng, at `speed` words a minute; return it as 16 kHz mono without silence around it.
-
-    Raises MissingExtraError without espeak-ng, AudioError if it has no such voice.
-    """
-    if shutil.which("espeak-ng") is None:
-        raise MissingExtraError("espeak-ng is not installed; install it with: apt install espeak-ng")
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "said.wav"
-        command = ["espeak-ng", "-v", voice, "-s", str(speed), "-z", "-w", str(path), "--", text]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode or not path.exists():
-            found = done.stderr.strip() or f"code {done.returncode}"
-            raise AudioError(f"found {found}, expected a voice of espeak-ng", field=voice)
-        samples = open_wav(path).read(LONGEST * RATE)
-    loud = np.flatnonzero(np.abs(samples) > 30)
-    return samples[loud[0] : loud[-1] + 1] if len(loud) else samples
 
 
 def in_noise(samples: Samples, snr: float, seed: int) -> Samples:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -33,43 +34,73 @@ class Utterance:
     samples: Samples
 
 
-class Utterances:
-    """The utterances of a Sound, found while it is read. Holds at most LONGEST frames."""
+class Detector(Protocol):
+    """Tells speech from other sounds."""
 
-    def __init__(self, sound: Sound) -> None:
-        self._sound = sound
-        self._kept: list[Samples] = []  # frames read and not given away; the last one is frame `_count` - 1
+    def __call__(self, frame: Samples, above: float, speaking: bool) -> bool:
+        """Whether there is speech in the next 10 ms. above: dB over the floor; speaking: whether there just was."""
+        ...
+
+
+def loud(frame: Samples, above: float, speaking: bool) -> bool:  # noqa: ARG001
+    """Whether a frame is loud enough for speech; the Detector of recordings."""
+    return above > (OFFSET if speaking else ONSET)
+
+
+class Cutter:
+    """Cuts frames that are pushed into utterances. Holds at most LONGEST frames."""
+
+    def __init__(self, detector: Detector = loud) -> None:
+        self._detector = detector
+        self._kept: list[Samples] = []  # frames not given away; the last one is frame `_count` - 1
         self._count = 0
         self._powers: deque[float] = deque(maxlen=SMOOTH)
         self._levels: deque[float] = deque(maxlen=MEMORY)  # dB
         self._quiet = 0  # frames since speech
-        self._speaking = False  # whether someone is in mid-utterance
-        self.ended = False
+        self.speaking = False  # whether someone is in mid-utterance
+
+    @property
+    def time(self) -> float:
+        """How much (s) was pushed."""
+        return self._count * FRAME / RATE
 
     @property
     def settled(self) -> float:
-        """Up to when (s) all that was said has been given: what was read, but for an utterance that goes on."""
-        return (self._count - (len(self._kept) if self._speaking else 0)) * FRAME / RATE
+        """Up to when (s) all that was said has been given: what was pushed, but for an utterance that goes on."""
+        return (self._count - (len(self._kept) if self.speaking else 0)) * FRAME / RATE
 
-    def step(self) -> Utterance | None:
-        """Read 10 ms; return an utterance if one ended with them. Raises AudioError for a stream that breaks."""
-        frame = self._sound.read(FRAME)
-        if len(frame) < FRAME:
-            self.ended = True
-            return self._give(len(self._kept)) if self._speaking else None
+    def take(self, frame: Samples) -> Utterance | None:
+        """Take the next 10 ms; return an utterance if one ended with them."""
         self._kept.append(frame)
         self._count += 1
-        above = self._above_floor(frame)
-        self._speaking = self._speaking or above > ONSET
-        self._quiet = 0 if above > OFFSET else self._quiet + 1
-        if not self._speaking:
+        voiced = self._detector(frame, self._above_floor(frame), self.speaking)
+        self.speaking = self.speaking or voiced
+        self._quiet = 0 if voiced else self._quiet + 1
+        if not self.speaking:
             del self._kept[:-PADDING]
         elif self._quiet >= PAUSE:
-            self._speaking = False
+            self.speaking = False
             return self._give(len(self._kept) - PAUSE + PADDING)
         elif len(self._kept) >= LONGEST:
             return self._give(len(self._kept) - MEMORY + int(np.argmin(self._levels)) - SMOOTH // 2)
         return None
+
+    def so_far(self) -> Utterance:
+        """Return the utterance that goes on, up to now."""
+        return Utterance(self.begun, np.concatenate(self._kept))
+
+    def end(self) -> Utterance | None:
+        """End the utterance that goes on and return it; forget what was said before if there is none."""
+        given = self._give(len(self._kept)) if self.speaking else None
+        self.speaking = False
+        self._kept.clear()
+        self._powers.clear()  # the loudness of what was said is none of what follows
+        return given
+
+    @property
+    def begun(self) -> float:
+        """When (s) the utterance that goes on began."""
+        return (self._count - len(self._kept)) * FRAME / RATE
 
     def _above_floor(self, frame: Samples) -> float:
         self._powers.append(float(np.square(np.abs(np.fft.rfft(frame)[BAND])).sum()))
@@ -78,6 +109,27 @@ class Utterances:
         return self._levels[-1] - min(self._levels)
 
     def _give(self, count: int) -> Utterance:
-        start = (self._count - len(self._kept)) * FRAME / RATE
+        start = self.begun
         given, self._kept = self._kept[:count], self._kept[count:]
         return Utterance(start, np.concatenate(given))
+
+
+class Utterances:
+    """The utterances of a Sound, found while it is read."""
+
+    def __init__(self, sound: Sound) -> None:
+        self._sound, self._cutter = sound, Cutter()
+        self.ended = False
+
+    @property
+    def settled(self) -> float:
+        """Up to when (s) all that was said has been given: what was read, but for an utterance that goes on."""
+        return self._cutter.settled
+
+    def step(self) -> Utterance | None:
+        """Read 10 ms; return an utterance if one ended with them. Raises AudioError for a stream that breaks."""
+        frame = self._sound.read(FRAME)
+        if len(frame) < FRAME:
+            self.ended = True
+            return self._cutter.end()
+        return self._cutter.take(frame)

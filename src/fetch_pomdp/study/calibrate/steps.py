@@ -51,7 +51,8 @@ def steps_of(events: Iterable[Event]) -> Iterator[Step]:
     """Yield the steps of an interaction.
 
     Choice: observations that follow one another without an action between are of one step: an answer that came before
-    the question had been asked belongs to the step before. An action that was not done is a wait.
+    the question had been asked belongs to the step before. An action that was not done is a wait, but for a pick that
+    was stopped, which is a question.
     """
     asked: int | None = None
     open_step: Step | None = None
@@ -61,7 +62,7 @@ def steps_of(events: Iterable[Event]) -> Iterator[Step]:
             continue
         if open_step is not None:
             yield open_step
-        action = event.action if event.done else Wait()
+        action = event.counts_as or Wait()
         asked = asked_after(action, asked)
         open_step = None if isinstance(action, Pick) else Step(action, asked, Observation())
     if open_step is not None:

@@ -1,0 +1,75 @@
+"""The robot of a live interaction: it may break, and a hand-over may be objected to."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from typing import Protocol
+
+from fetch_pomdp.core.live.inbox import Inbox
+from fetch_pomdp.core.live.updates import State
+from fetch_pomdp.core.live.vitals import Vitals
+from fetch_pomdp.core.ports import Outcome, Robot
+from fetch_pomdp.core.scene import Item
+from fetch_pomdp.core.words import NEGATIVE, STOPS, tokenize
+
+logger = logging.getLogger(__name__)
+
+OBJECTIONS = STOPS.union(NEGATIVE)
+
+
+class LiveRobot(Robot, Protocol):
+    """A Robot whose `stop` may be called from any thread while another call goes on, and returns at once."""
+
+
+class Body:
+    """Implements Robot over a LiveRobot: what raises has failed; words that object stop a pick.
+
+    Choice: a partial hypothesis is enough to stop it. A stop that was not meant costs a step, a wrong hand-over the
+    interaction.
+    """
+
+    def __init__(self, robot: LiveRobot, inbox: Inbox, vitals: Vitals) -> None:
+        self._robot, self._inbox, self._vitals = robot, inbox, vitals
+        self._picking = False
+
+    def point(self, item: Item) -> Outcome:
+        """Point at an item and ask."""
+        return self._carry_out(lambda: self._robot.point(item))
+
+    def pick(self, item: Item) -> Outcome:
+        """Hand an item over, unless there are objections, also such as came while the robot decided."""
+        self._picking = True
+        try:
+            return Outcome.STOPPED if self._objected() else self._carry_out(lambda: self._robot.pick(item))
+        finally:
+            self._picking = False
+
+    def say(self, text: str) -> Outcome:
+        """Say something."""
+        return self._carry_out(lambda: self._robot.say(text))
+
+    def stop(self) -> None:
+        """Stop what is going on."""
+        self._robot.stop()
+
+    def heed(self) -> None:
+        """Stop a pick that was objected to; from any thread, after something has come into the inbox."""
+        if self._picking and self._objected():
+            self._robot.stop()
+
+    def _objected(self) -> bool:
+        pending = self._inbox.pending()
+        heard = pending.words + (pending.partial or ())
+        return any(text in OBJECTIONS for word in heard for text in tokenize(word.text))
+
+    def _carry_out(self, action: Callable[[], Outcome]) -> Outcome:
+        try:
+            outcome = action()
+        except Exception:
+            logger.exception("the robot broke")
+            outcome = Outcome.FAILED
+            self._vitals.report("robot", State.LOST)
+        else:
+            self._vitals.report("robot", State.OK)
+        return outcome

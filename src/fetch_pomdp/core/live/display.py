@@ -1,0 +1,81 @@
+"""What the listener is told: each event, and the belief while a step goes on, as if the step ended now."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from threading import RLock
+
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.interaction import median_ray, objections, texts
+from fetch_pomdp.core.live.inbox import Inbox
+from fetch_pomdp.core.live.updates import BeliefChanged, Did, Heard, Update
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.ports import Word
+from fetch_pomdp.errors import InputError
+
+logger = logging.getLogger(__name__)
+
+
+class Display:
+    """Tells a listener, one update at a time. Safe from any thread.
+
+    The belief of a step that goes on is computed from the step's start each time, from all that was heard and seen in
+    it, so that a hypothesis that is replaced leaves no trace.
+    """
+
+    def __init__(self, agent: Agent, inbox: Inbox, listener: Callable[[Update], None]) -> None:
+        self._agent, self._inbox, self._listener, self._lock = agent, inbox, listener, RLock()
+        self._start, self._asked, self._reading = agent.posterior, agent.asked, texts
+        self._taken: tuple[Word, ...] = ()  # from the inbox, but not in the agent's belief yet
+        self._shown = Observation()
+
+    def tell(self, update: Update) -> None:
+        """Tell the listener; what goes wrong there is logged, and is no matter of the interaction."""
+        with self._lock:
+            try:
+                self._listener(update)
+            except Exception:
+                logger.exception("the listener broke")
+
+    def took(self, words: tuple[Word, ...]) -> None:
+        """Know of words that were taken out of the inbox for the observation under way."""
+        with self._lock:
+            self._taken += words
+
+    def begin(self, time: float) -> None:
+        """Tell the belief that the agent begins with, or goes on with after what was taken has been left out."""
+        with self._lock:
+            self._start, self._asked, self._taken = self._agent.posterior, self._agent.asked, ()
+            self._shown = Observation()
+            self.tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=()))
+
+    def settle(self, event: Event, time: float) -> None:
+        """Tell of an event that the agent has taken, and of the belief that the next step begins with."""
+        with self._lock:
+            self._start, self._asked, self._shown = self._agent.posterior, self._agent.asked, Observation()
+            if isinstance(event, Acted):
+                self._reading = objections if event.objected else texts
+                self.tell(Did(event))
+            else:
+                self._taken = tuple(word for word in self._taken if word not in event.words)
+                self.tell(Heard(event))
+                self.tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=texts(event.words)))
+            self.look(time)
+
+    def look(self, time: float) -> None:
+        """Tell what the belief would be if the step ended now, unless that is as it was."""
+        with self._lock:
+            pending = self._inbox.pending()
+            words = self._taken + pending.words + (pending.partial or ())
+            ray = median_ray(pending.frames, self._agent.problem)
+            observation = Observation(self._reading(words), ray)
+            if observation == self._shown:
+                return
+            self._shown = observation
+            try:
+                belief = self._start.updated(observation, self._asked, self._agent.problem)
+            except InputError:  # impossible by the model: the step's end says so, if the words stay what they are
+                return
+            self.tell(BeliefChanged(time, belief.probabilities, provisional=True, words=texts(words)))
