@@ -130,6 +130,7 @@ def test_an_answer_before_the_question_has_ended_is_read_with_the_one_before() -
     assert [type(event).__name__ for event in events] == ["Acted", "Observed", "Observed", "Acted", "Observed", "Acted"]
     early, late = observed(events)[1:]
     assert early.observation.words == ("no",)
+    assert (early.early, late.early) == (True, False)
     assert early.time == pytest.approx(4.6)
     assert late.observation.words == ("yes",)
     assert agent.belief[2] < 0.01, "'no' was about item 2"

@@ -57,7 +57,7 @@ words = st.lists(
     st.builds(Word, st.sampled_from(["marker", "uh"]), coordinates, coordinates, st.floats(0, 1)), max_size=3
 )
 events: st.SearchStrategy[Event] = st.builds(
-    Observed, st.builds(Observation, texts, rays), words.map(tuple), times
+    Observed, st.builds(Observation, texts, rays), words.map(tuple), times, early=st.booleans()
 ) | st.builds(Acted, actions, st.sampled_from(Outcome), st.none(), times, st.none() | st.integers(1, 99))
 
 

@@ -15,13 +15,15 @@ from fetch_pomdp.core.ports import Outcome, Word
 class Observed:
     """The robot took in an observation of a step that ended at `time` (s); words: as they were heard.
 
-    spoken: the words that the person really said, where somebody wrote them down; no belief reads them.
+    spoken: the words that the person really said, where somebody wrote them down; no belief reads them. early: whether
+    it was heard while the next action, which had been decided, went on.
     """
 
     observation: Observation
     words: tuple[Word, ...] = ()
     time: float | None = None
     spoken: tuple[str, ...] | None = None
+    early: bool = False
 
 
 @dataclass(frozen=True, slots=True)

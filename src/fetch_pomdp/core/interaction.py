@@ -103,7 +103,7 @@ class Senses:
         words = tuple(self._ears.hear(time)) if self._ears else ()
         answers = tuple(word for word in words if not RESPONSES.isdisjoint(tokenize(word.text)))
         self._kept += tuple(word for word in words if RESPONSES.isdisjoint(tokenize(word.text)))
-        return Observed(Observation(texts(answers)), answers, time) if answers else None
+        return Observed(Observation(texts(answers)), answers, time, early=True) if answers else None
 
     def perceive(self, due: float, reading: Callable[[Sequence[Word]], tuple[str, ...]]) -> Observed:
         """Listen until `due` (s); return what was said and seen since the last call, without what was given as answers.

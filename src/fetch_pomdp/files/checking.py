@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -66,11 +66,19 @@ def relived(recording: Recording) -> Iterator[Relived]:
 
     Raises BeliefError or ObservationError, with file and line, for an event that the model holds impossible.
     """
-    agent = recording.header.agent()
-    for event, document in zip(recording.events, recording.documents, strict=True):
-        decided = agent.decide(passes=event.passes).action if isinstance(event, Acted) else None
+    agent, decided = recording.header.agent(), None
+    for place, (event, document) in enumerate(zip(recording.events, recording.documents, strict=True)):
+        if decided is None and (isinstance(event, Acted) or event.early):
+            decided = agent.decide(passes=_passes(recording.events[place:])).action
         document.build(lambda _, event=event: agent.take(event))  # type: ignore[misc]
-        yield Relived(event, document.line_of(""), agent.belief, agent.asked, decided)
+        acted = isinstance(event, Acted)
+        yield Relived(event, document.line_of(""), agent.belief, agent.asked, decided if acted else None)
+        decided = None if acted else decided
+
+
+def _passes(events: Sequence[Event]) -> int | None:
+    """Return how many passes the next decision took, if it had a budget."""
+    return next((event.passes for event in events if isinstance(event, Acted)), None)
 
 
 def differences(recording: Recording) -> Iterator[InputError]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -26,13 +27,16 @@ def event_from_json(data: Mapping[str, Any], scene: Scene) -> Event:
         raise EventError("found an observation too, expected a line for each", field="action")
     if "action" in data:
         return _acted(data, scene)
-    checks.known(data, ("observation", "t"), "field", EventError)
+    checks.known(data, ("observation", "t", "early"), "field", EventError)
     checks.required(data, ("observation",), EventError)
-    time = _time(data.get("t"), "t")
+    time, early = _time(data.get("t"), "t"), data.get("early", False)
+    if not isinstance(early, bool):
+        raise EventError(f"found {shown(early)}, expected true or false", field="early")
     try:
-        return _observed(checks.mapping(data["observation"], "", EventError), time)
+        observed = _observed(checks.mapping(data["observation"], "", EventError), time)
     except InputError as error:
         raise error.within("observation") from None
+    return dataclasses.replace(observed, early=early)
 
 
 def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
@@ -143,4 +147,4 @@ def _observed_to_json(event: Observed) -> dict[str, Any]:
         fields |= {"head": list(observation.ray.head), "wrist": list(observation.ray.wrist)}
     if event.spoken is not None:
         fields["spoken"] = " ".join(event.spoken)
-    return {"observation": fields}
+    return {"observation": fields, "early": True} if event.early else {"observation": fields}
