@@ -186,9 +186,7 @@ def points(study: Study, names: Sequence[str], trials: int) -> Iterator[Point]:
                 yield Point(curve, condition, value, sized(change(curve.at(study, value)), trials))
 
 
-def trace(
-    chosen: Sequence[Point], folder: Path, crew: Crew, told: Callable[[int], None] = lambda _: None
-) -> Table:
+def trace(chosen: Sequence[Point], folder: Path, crew: Crew, told: Callable[[int], None] = lambda _: None) -> Table:
     """Play what is missing of points, and return their cells as a DataFrame: a row a point, layout and paradigm.
 
     told: called with the number of trials on disk. Raises StudyError if the folder holds other studies.
