@@ -8,7 +8,7 @@ from typing import Any
 from fetch_pomdp.study.analysis.trials import Table
 from fetch_pomdp.study.curves import Curve
 from fetch_pomdp.study.libraries import load
-from fetch_pomdp.study.plots import COLOURS, INK, MARKS, Figure, legend, styled
+from fetch_pomdp.study.plots import COLOURS, MARKS, Figure, legend, styled
 
 MEASURES = (("accuracy", "right item (%)", 100.0), ("time", "time (s)", 1.0))
 MANY = 10  # a curve that reaches so many times its first value is drawn over a logarithmic axis
@@ -37,7 +37,7 @@ def curve(table: Table, of: Curve) -> Figure:
                 axis.set_xticks(of.values, [f"{value:g}" for value in of.values])
                 axis.minorticks_off()
         axes[row][0].set_ylabel(f"{layout}\n{unit}" if len(layouts) > 1 else unit)
-    figure.supxlabel(of.label, color=INK, fontsize=9)
+    axes[-1][len(conditions) // 2].set_xlabel(of.label)
     legend(figure, [axis for line in axes for axis in line])
     return figure
 
