@@ -42,5 +42,5 @@ def test_the_seventh_begins_a_second_arc_which_holds_seven() -> None:
 
 @pytest.mark.parametrize("count", [1, 0, 2001, True, 2.0])
 def test_other_counts_are_refused(count: int) -> None:
-    with pytest.raises(StudyError, match="items: found .*, expected a whole number from 2 to 2000"):
+    with pytest.raises(StudyError, match=r"items: found .*, expected a whole number from 2 to 2000"):
         alike(count)

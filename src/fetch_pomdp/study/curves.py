@@ -82,8 +82,8 @@ def with_sigma_times(factor: float, study: Study) -> Study:
     return dataclasses.replace(study, layouts=layouts)
 
 
-def _answering_true(people: People, share: float) -> People:
-    return dataclasses.replace(people, p_flip=1.0 - share)
+def _answering_wrong(people: People, share: float) -> People:
+    return dataclasses.replace(people, p_flip=share)
 
 
 def _pointing_off(people: People, angle: float) -> People:
@@ -95,7 +95,7 @@ CONDITIONS: Mapping[str, Change] = {
     "as it is": lambda study: study,
     "sigma doubled": partial(with_sigma_times, 2.0),
     "sigma halved": partial(with_sigma_times, 0.5),
-    "answers true 80 %": partial(with_population, partial(_answering_true, share=0.8)),
+    "answers true 80 %": partial(with_population, partial(_answering_wrong, share=0.2)),
     "pointing off by 5 degrees": partial(with_population, partial(_pointing_off, angle=OFF)),
 }
 
