@@ -47,29 +47,56 @@ def test_the_grid_holds_the_prices_that_can_be(monkeypatch: pytest.MonkeyPatch) 
         Rewards(point=-5.0).with_changes(setting.of(Rewards(point=-5.0)))
 
 
-def test_candidates_meet_the_same_people_and_finalists_others() -> None:
+def test_candidates_meet_the_same_people_and_each_later_round_others() -> None:
     study = Study(seed=3)
     chosen = prices.candidates(study, 100)
     assert dict(chosen[0].study.paradigms) == PAPER
     assert {one.study.seed for one in chosen} == {3}
     assert {one.study.people for one in chosen} == {2 * 17}  # 100 trials of six items
-    name = Prices(1.0, 2.0, 4.0).name
-    final = prices.finalists(study, name, 1000).study
-    assert (final.seed, final.people, list(final.paradigms)) == (4, 2 * 167, ["fetch", name])
-    assert final.paradigms[name].rewards == {"wait": -1.0, "point": -12.0, "pick_wrong": -50.0}
+    names = [Prices(1.0, 2.0, 4.0).name, Prices(1.0, 1.0, 1.0).name]
+    again = prices.second_round(study, names, 250).study
+    assert (again.seed, again.people, list(again.paradigms)) == (4, 2 * 167, ["fetch", *names])
+    assert again.paradigms[names[0]].rewards == {"wait": -1.0, "point": -12.0, "pick_wrong": -50.0}
+    last = prices.final(study, names[1], 100).study
+    assert (last.seed, last.people, list(last.paradigms)) == (5, 2 * 17, ["fetch", names[1]])
 
 
 def test_the_best_gains_in_both_measures_and_layouts() -> None:
-    assert prices.best(made(GOOD, HALF, WORSE)) == GOOD
-    assert prices.best(made(HALF, WORSE)) is None
+    assert prices.ranked(made(GOOD, HALF, WORSE), prices.everywhere)[0] == GOOD
+    assert prices.best(made(GOOD, HALF, WORSE), prices.everywhere) == GOOD
+    assert prices.best(made(HALF, WORSE), prices.everywhere) is None
+    assert prices.best(made(HALF, WORSE), prices.somewhere) is None
 
 
-def test_a_check_holds_where_there_is_a_gain_and_not_where_there_is_none() -> None:
-    assert [one.verdict for one in prices.check(made(GOOD, seed=1), GOOD)] == ["holds", "holds"]
-    verdicts = {one.name: [clause.verdict for clause in one.clauses] for one in prices.check(made(HALF), HALF)}
-    assert verdicts == {"ambiguous": ["holds", "holds"], "unambiguous": ["refuted", "holds"]}
-    slow = {one.name: [clause.verdict for clause in one.clauses] for one in prices.check(made(WORSE), WORSE)}
-    assert slow["ambiguous"] == ["holds", "refuted"]
+def test_where_there_are_no_errors_it_is_enough_to_be_as_accurate() -> None:
+    perfect: Cells = {
+        "ambiguous": {"fetch": (9.0, 0.85), GOOD: (8.0, 0.95), WORSE: (8.0, 0.85)},
+        "unambiguous": {"fetch": (5.0, 1.0), GOOD: (4.5, 1.0), WORSE: (4.5, 0.97)},
+    }
+    trials = checked(drawn(60, 0, perfect))
+    assert prices.best(trials, prices.everywhere) is None
+    assert prices.best(trials, prices.somewhere) == GOOD
+
+
+def test_a_check_says_what_is_shown_and_what_is_not() -> None:
+    for name, verdicts, words in (
+        (GOOD, {"ambiguous": ["holds"] * 3, "unambiguous": ["holds"] * 3}, "more accurate than fetch in every layout"),
+        (HALF, {"ambiguous": ["holds"] * 3, "unambiguous": ["holds", "refuted", "refuted"]}, "Not shown"),
+        (WORSE, {"ambiguous": ["refuted", "holds", "holds"], "unambiguous": ["holds"] * 3}, "Not shown"),
+    ):
+        found = prices.check(made(name, seed=1), name)
+        assert {one.name: [clause.verdict for clause in one.clauses] for one in found} == verdicts
+        assert words in prices.conclusion(found)
+
+
+def test_as_accurate_everywhere_and_more_accurate_in_one_layout_is_said() -> None:
+    nearly: Cells = {
+        "ambiguous": {"fetch": (9.0, 0.85), GOOD: (8.0, 0.95)},
+        "unambiguous": {"fetch": (5.0, 0.999), GOOD: (4.5, 0.999)},
+    }
+    found = prices.check(checked(drawn(150, 0, nearly)), GOOD)
+    assert [clause.verdict for clause in found[1].clauses] == ["holds", "holds", "not shown"]
+    assert prices.conclusion(found).endswith("as accurate as fetch in every layout, more accurate in one.")
 
 
 def test_what_is_played_is_gone_on_with(tmp_path: Path) -> None:

@@ -16,7 +16,6 @@ from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.study import curve_plots, prices
 from fetch_pomdp.study.analysis import words
 from fetch_pomdp.study.analysis.hypotheses import Hypothesis
-from fetch_pomdp.study.analysis.plan import Plan
 from fetch_pomdp.study.analysis.trials import Table
 from fetch_pomdp.study.configuration import load_study
 from fetch_pomdp.study.crew import Crew
@@ -73,26 +72,33 @@ def price_lists(
 ) -> None:
     """Look for prices at which our default is no slower and more accurate than the paper's search in every layout.
 
-    What is found is checked with fresh people, of the next seed (docs/robustness.md).
+    If there are none, then where it is as accurate in every layout and more accurate in one. What is found is checked
+    with fresh people (docs/robustness.md).
     """
     study = _study(config, seed)
     crew = Crew(workers=workers, backend=backend, address=address)  # type: ignore[arg-type]
     _warm_up(with_default(study))
     chosen = prices.candidates(study, trials)
-    with trials_bar(sum(one.study.size for one in chosen)) as told:
-        searched = prices.play(chosen, out, crew, told)
-    found, table = prices.best(searched), prices.cell_table(searched)
-    _write(table, out / "prices.csv")
-    _draw(curve_plots.plane(table, found, list(PAPER)), out / "prices")
+    searched = _played(chosen, out, crew)
+    shortlist = prices.ranked(searched, prices.somewhere)[: prices.SHORTLIST]
+    again = _played([prices.second_round(study, shortlist, trials)], out, crew)
+    found = prices.best(again, prices.everywhere) or prices.best(again, prices.somewhere)
+    _write(prices.cell_table(searched), out / "prices.csv")
+    _write(prices.cell_table(again), out / "second.csv")
+    _draw(curve_plots.plane(prices.cell_table(searched), found, list(PAPER)), out / "prices")
     if found is None:
-        print(f"Of {len(chosen) - 1} settings none was faster and more accurate than {prices.SYSTEM} in every layout.")
+        claim = f"faster than {prices.SYSTEM} and as accurate in every layout, and more accurate in one"
+        print(f"Of {len(chosen) - 1} settings none was {claim}.")
         return
     print(f"Best of {len(chosen) - 1} settings: {found}")
-    final = prices.finalists(study, found, fresh)
-    with trials_bar(final.study.size) as told:
-        checked = prices.play([final], out, crew, told)
+    checked = _played([prices.final(study, found, fresh)], out, crew)
     _write(prices.cell_table(checked), out / "check.csv")
     _tell(prices.check(checked, found), found)
+
+
+def _played(chosen: list[prices.Played], out: Path, crew: Crew) -> Table:
+    with trials_bar(sum(one.study.size for one in chosen)) as told:
+        return prices.play(chosen, out, crew, told)
 
 
 def _study(config: Path | None, seed: int | None) -> Study:
@@ -119,13 +125,7 @@ def _draw(figure: Any, stem: Path) -> None:
 
 def _tell(checked: list[Hypothesis], name: str) -> None:
     console = Console(highlight=False, soft_wrap=True)
-    plan = Plan(system=name, margin_time=prices.MARGIN)
     for hypothesis in checked:
         for clause in hypothesis.clauses:
-            console.print(f"{hypothesis.name}: {words.verdict(clause, plan)}", markup=False)
-    held = all(hypothesis.verdict == "holds" for hypothesis in checked)
-    print(
-        "With fresh people it is more accurate and no slower in every layout."
-        if held
-        else "With fresh people it was not shown to be more accurate and no slower in every layout."
-    )
+            console.print(f"{hypothesis.name}: {words.verdict(clause, prices.judge(name))}", markup=False)
+    print(prices.conclusion(checked))
