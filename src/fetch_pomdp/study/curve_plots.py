@@ -11,7 +11,7 @@ from fetch_pomdp.study.libraries import load
 from fetch_pomdp.study.plots import COLOURS, MARKS, Figure, legend, styled
 
 MEASURES = (("accuracy", "right item (%)", 100.0), ("time", "time (s)", 1.0))
-MANY = 10  # a curve that reaches so many times its first value is drawn over a logarithmic axis
+MANY = 20  # a curve that reaches so many times its first value is drawn over a logarithmic axis
 
 
 @styled
