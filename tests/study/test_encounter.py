@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.random import default_rng
 
+from fetch_pomdp.core.action import Pick, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.planners.exact import ExactAnswers
@@ -53,6 +54,13 @@ def test_people_without_errors_get_what_they_want_from_every_paradigm() -> None:
             assert trial.correct
             assert 0.0 < trial.time < 20.0
             assert trial.questions >= isinstance(planner, AlwaysAsk)
+
+
+def test_a_pick_before_the_request_took_no_time() -> None:
+    assignment = Assignment(0, "unambiguous", "any", UNAMBIGUOUS.items[0].id, 0)
+    trial = scored(assignment, [Acted(Pick(0), time=0.0)], UNAMBIGUOUS, 0.5)
+    assert (trial.time, trial.correct, trial.waits) == (0.0, True, 0)
+    assert scored(assignment, [Acted(Wait(), time=0.0), Acted(Pick(1), time=2.0)], UNAMBIGUOUS, 0.5).time == 1.5
 
 
 def test_a_misheard_yes_makes_the_always_asking_robot_ask_again() -> None:

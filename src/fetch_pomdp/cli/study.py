@@ -10,11 +10,12 @@ from typing import Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from fetch_pomdp.adapters.speech.spoken import SpokenWords
+from fetch_pomdp.cli.curves import curves, price_lists
 from fetch_pomdp.cli.options import Json, ModelFile, Seed, as_json, warm_up
+from fetch_pomdp.cli.progress import trials_bar
 from fetch_pomdp.cli.reproduce import compare, fit, stories
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
@@ -36,6 +37,8 @@ app = typer.Typer(rich_markup_mode=None)
 app.command()(fit)
 app.command()(compare)
 app.command()(stories)
+app.command()(curves)
+app.command("prices")(price_lists)
 
 
 @app.callback(invoke_without_command=True)
@@ -105,15 +108,9 @@ def _play(chosen: Study, out: Path, crew: Crew) -> None:
     for name, paradigm in chosen.paradigms.items():
         first = next(iter(chosen.layouts))
         warm_up(planner_named(paradigm.planner, **paradigm.parameters), Problem(chosen.scene(first, name)))
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task("trials", total=chosen.size)
-        try:
-            speech = SpokenWords if chosen.real_speech else None
-            run(chosen, out, crew, speech=speech, told=lambda count: bar.update(task, completed=count))
-        except KeyboardInterrupt:
-            bar.console.print("stopped; the same command goes on from there")
-            raise typer.Exit(130) from None
+    speech = SpokenWords if chosen.real_speech else None
+    with trials_bar(chosen.size) as told:
+        run(chosen, out, crew, speech=speech, told=told)
 
 
 def _show(found: tuple[Cell, ...]) -> None:

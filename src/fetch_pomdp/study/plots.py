@@ -65,7 +65,7 @@ def bars(cells: Sequence[Cell]) -> Figure:
     axes[1].set_ylim(floor, 101)
     for axis in axes:
         axis.set_xticks(range(len(layouts)), layouts)
-    _legend(figure, axes)
+    legend(figure, axes)
     return figure
 
 
@@ -95,7 +95,7 @@ def persons(table: Table, cells: Sequence[Cell]) -> Figure:
                 points = np.column_stack([times[paradigm], shares[paradigm]])
                 _cloud(axis, points[np.isfinite(points).all(axis=1)], place, paradigm)
         axis.set(title=layout, xlabel="mean time of a person (s)", ylabel="right item (%)")
-    _legend(figure, axes)
+    legend(figure, axes)
     return figure
 
 
@@ -145,7 +145,7 @@ def survival(table: Table, cells: Sequence[Cell]) -> Figure:
                 axis.step(time, share, where="post", label=paradigm, **style)
         axis.set(title=layout, xlabel="time since the request began (s)", ylabel="without a pick (%)", ylim=(0, 101))
         axis.set_xlim(left=0)
-    _legend(figure, axes)
+    legend(figure, axes)
     return figure
 
 
@@ -170,7 +170,7 @@ def questions(table: Table, cells: Sequence[Cell], most: int = 4) -> Figure:
             axis.bar(x, share, 0.92 * width, color=COLOURS[place % len(COLOURS)], label=paradigm)
         axis.set_xticks(range(most + 1), [*map(str, range(most)), f"{most}+"])
         axis.set(title=layout, xlabel="questions", ylabel="trials (%)")
-    _legend(figure, axes)
+    legend(figure, axes)
     return figure
 
 
@@ -188,7 +188,7 @@ def _axes(count: int, title: str) -> tuple[Figure, Sequence[Any]]:
     return figure, list(figure.subplots(1, count, squeeze=False)[0])
 
 
-def _legend(figure: Figure, axes: Sequence[Any]) -> None:
+def legend(figure: Figure, axes: Sequence[Any]) -> None:
     """Put one legend under all axes, with what any of them shows."""
     entries = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
     figure.legend(entries.values(), entries, loc="outside lower center", ncols=min(4, max(1, len(entries))))

@@ -38,7 +38,10 @@ class Trial:
 
 
 def scored(assignment: Assignment, events: Iterable[Event], scene: Scene, begun: float) -> Trial:
-    """Return how a trial went from what happened in it; begun: when the request began (s)."""
+    """Return how a trial went from what happened in it; begun: when the request began (s).
+
+    Choice: a robot that picks before the request begins took no time, not less than none.
+    """
     questions = waits = 0
     picked, time = None, begun
     for event in events:
@@ -50,5 +53,5 @@ def scored(assignment: Assignment, events: Iterable[Event], scene: Scene, begun:
                 picked = scene.items[event.action.item].id
     return Trial(
         assignment.person, assignment.layout, assignment.paradigm, assignment.desired, assignment.order,
-        time - begun, picked == assignment.desired, picked, questions, waits,
+        max(0.0, time - begun), picked == assignment.desired, picked, questions, waits,
     )  # fmt: skip

@@ -61,10 +61,11 @@ def hypotheses(table: Table, plan: Plan) -> tuple[Hypothesis, Hypothesis]:
         (plan.never, "accuracy", "better"), (plan.always, "accuracy", "no worse"),
         (plan.always, "time", "better"), (plan.never, "time", "no worse"),
     )  # fmt: skip
-    return _judged("H1", plan.unambiguous, first, table, plan), _judged("H2", plan.ambiguous, second, table, plan)
+    return judged("H1", plan.unambiguous, first, table, plan), judged("H2", plan.ambiguous, second, table, plan)
 
 
-def _judged(name: str, layout: str, claims: Claims, table: Table, plan: Plan) -> Hypothesis:
+def judged(name: str, layout: str, claims: Claims, table: Table, plan: Plan) -> Hypothesis:
+    """Return a hypothesis of so many claims about one layout, judged on a checked table."""
     trials = table[table["layout"] == layout]
     clauses = [_clause(name, layout, claim, trials, plan) for claim in claims]
     corrected = holm([clause.p for clause in clauses])

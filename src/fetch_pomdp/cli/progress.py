@@ -1,0 +1,23 @@
+"""The progress bar of commands that play trials."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+
+@contextmanager
+def trials_bar(total: int) -> Iterator[Callable[[int], None]]:
+    """Show how many of `total` trials are on disk, as the function told says; stopped by hand, exit with code 130."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task("trials", total=total)
+        try:
+            yield lambda count: bar.update(task, completed=count)
+        except KeyboardInterrupt:
+            bar.console.print("stopped; the same command goes on from there")
+            raise typer.Exit(130) from None
