@@ -87,10 +87,10 @@ def theirs(problem: Problem) -> Iterator[Contestant]:
         ("greedy", 100, 0, 20),
         ("aided", 10, 0, 120),
         ("aided", 100, 0, 30),
-        ("aided", 1_000, 0, 18),
+        ("aided", 1_000, 0, 12),
         ("aided", 10, PARTICLES, 60),
-        ("aided", 100, PARTICLES, 30),
-        ("aided", 1_000, PARTICLES, 18),
+        ("aided", 100, PARTICLES, 18),
+        ("aided", 1_000, PARTICLES, 12),
     )
     for style, milliseconds, particles, episodes in field_:
         solver = "POMCP" if particles else "POUCT"
