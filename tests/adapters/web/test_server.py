@@ -149,6 +149,15 @@ def test_a_request_a_question_an_answer_and_a_hand_over(house: House) -> None:
     assert page.next("ended")["picked"] == asked["item"]
 
 
+def test_pointing_alone_begins_an_interaction(house: House) -> None:
+    page = house.page()
+    page.send({"type": "ray", "head": [0, 0, 1.6], "wrist": [0.0675, 0.576, 1.447]})
+    seen = page.next("observed")["observation"]
+    assert (seen["utterance"], seen["head"]) == (None, [0.0, 0.0, 1.6])
+    belief = page.next("belief", provisional=False)["belief"]
+    assert max(belief, key=belief.get) == "spoon-2"
+
+
 def test_who_may_not_look_into_the_robot_s_mind_is_told_nothing_of_it() -> None:
     with house_of(Config(insight=False)) as house:
         page = house.page()

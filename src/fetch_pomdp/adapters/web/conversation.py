@@ -44,7 +44,7 @@ class Conversation:
         self.clock = RealClock(journal.time)
         self._agent = journal.agent()
         self._robot = PageRobot(self._say)
-        self._leaving = threading.Event()
+        self._leaving, self._came = threading.Event(), threading.Event()  # came: something to go on with
         self._heard_at = self.clock.now()
         self.inbox, self._session = self._rest()
         words = self._agent.scene.words
@@ -58,6 +58,7 @@ class Conversation:
     def close(self) -> None:
         """End, from any thread; what was going on is stopped, and is no part of the journal."""
         self._leaving.set()
+        self._came.set()
         self._session.close()
         if self._ears is not None:
             self._ears.close()
@@ -91,15 +92,16 @@ class Conversation:
 
     def _rest(self) -> tuple[Inbox, LiveSession]:
         inbox = Inbox()
-        return inbox, LiveSession(
-            self._agent, self._robot, inbox, listener=self._listen, clock=self.clock, timing=TIMING
-        )
+        inbox.subscribe(lambda _: self._came.set())
+        listen, clock = self._listen, self.clock
+        return inbox, LiveSession(self._agent, self._robot, inbox, listener=listen, clock=clock, timing=TIMING)
 
     def _run(self) -> None:
         try:
             self._prepare()
             while self._journal.picked is None and not self._leaving.is_set():
-                self.inbox.wake.wait()
+                self._came.wait()
+                self._came.clear()
                 self._session.run()
                 before = self.inbox
                 self.inbox, self._session = self._rest()
