@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import re
 import shutil
 import signal
@@ -53,21 +52,17 @@ def server(tmp_path: Path) -> Iterator[Server]:
     made.kill()
 
 
-def chromium(*flags: str) -> contextlib.AbstractContextManager[Browser]:
-    @contextlib.contextmanager
-    def opened() -> Iterator[Browser]:
-        path = shutil.which("chromium")
-        assert path, "chromium is not installed; install it with: apt install chromium"
-        with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=path, args=[*FLAGS, *flags])
-            yield browser
-            browser.close()
-
-    return opened()
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Callable[..., Browser]]:
+    """Opens a Chromium with further flags."""
+    path = shutil.which("chromium")
+    assert path, "chromium is not installed; install it with: apt install chromium"
+    with sync_playwright() as playwright:
+        yield lambda *flags: playwright.chromium.launch(executable_path=path, args=[*FLAGS, *flags])
 
 
 @pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
+def browser(chromium: Callable[..., Browser]) -> Iterator[Browser]:
     with chromium() as opened:
         yield opened
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import expect
+from playwright.sync_api import Browser, expect
 
-from tests.e2e.conftest import PATIENCE, Person, Server, chromium
+from tests.e2e.conftest import PATIENCE, Person, Server
 
 pytestmark = pytest.mark.browser
 Visit = Callable[[], Person]
@@ -149,7 +149,7 @@ def test_axe_finds_nothing(visit: Visit, language: str) -> None:
     assert [result.generate_report() for result in found if result.violations_count] == []
 
 
-def test_a_microphone_is_heard(server: Server) -> None:
+def test_a_microphone_is_heard(server: Server, chromium: Callable[..., Browser]) -> None:
     """Chromium's microphone plays examples/marker.wav ("hand me the marker") over and over."""
     sound = Path(__file__).parents[2] / "examples" / "marker.wav"
     flags = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")

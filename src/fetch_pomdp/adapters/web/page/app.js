@@ -95,7 +95,7 @@ function decided(message) {
   labels.about(message.item ?? null);
   if (message.action === "point") stage?.ask(message.item);
   if (message.action === "pick") stage?.fetch(message.item);
-  if (message.action !== "wait") $("#answers").hidden = message.action !== "point";
+  if (message.action !== "wait") $("#answers").hidden = true;
 }
 
 function happened(message) {
@@ -112,6 +112,7 @@ function acted(message) {
 
 function spoken(message) {
   bubble(message.key, 3500, message.text);
+  if (message.key === "asks") $("#answers").hidden = false; // an answer given before is none to this question
   speech.say(message);
 }
 

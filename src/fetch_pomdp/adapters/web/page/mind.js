@@ -69,7 +69,7 @@ export class Mind {
     said.append(line);
     entry.append(time, said);
     this.log.append(entry);
-    this.log.scrollTop = this.log.scrollHeight;
+    this.log.parentElement.scrollTop = this.log.parentElement.scrollHeight;
     this.open = message.type === "observed" ? said : null;
   }
 
