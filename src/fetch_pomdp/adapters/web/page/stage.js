@@ -203,7 +203,9 @@ export class Stage {
         area.geometry.dispose();
         area.geometry = new THREE.BufferGeometry().setFromPoints(fan(section(this.head, target, area.sigmas * this.scene.sigma)));
       }
-      const hand = this.head.clone().addScaledVector(this.frame.ahead, 0.35).addScaledVector(this.right, 0.16).setZ(this.head.z - 0.3);
+      // From the head itself it would be seen as a dot; it comes from beneath the picture instead.
+      const hand = this.camera.position.clone().addScaledVector(this.frame.ahead, 0.35).addScaledVector(this.right, 0.12);
+      hand.z -= 0.36;
       const way = target.clone().sub(hand);
       this.beam.position.copy(hand);
       this.beam.scale.set(1, way.length(), 1);
