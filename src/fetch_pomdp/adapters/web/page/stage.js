@@ -175,7 +175,7 @@ export class Stage {
   #pointer() {
     const soft = (opacity) => new THREE.MeshBasicMaterial({ color: ACCENT, transparent: true, opacity, depthTest: false, side: THREE.DoubleSide });
     this.areas = [2, 1].map((sigmas) => Object.assign(new THREE.Mesh(new THREE.BufferGeometry(), soft(0.09)), { sigmas }));
-    this.beam = new THREE.Mesh(new THREE.CylinderGeometry(0.004, 0.012, 1, 12).translate(0, 0.5, 0), soft(0.55));
+    this.beam = new THREE.Mesh(new THREE.CylinderGeometry(0.003, 0.005, 1, 12).translate(0, 0.5, 0), soft(0.55));
     this.mark = new THREE.Mesh(new THREE.RingGeometry(0.016, 0.024, 40), soft(0.9));
     this.pointing = new THREE.Group().add(...this.areas, this.beam, this.mark);
     this.pointing.visible = false;
