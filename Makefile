@@ -1,10 +1,10 @@
 # Two commands for a newcomer: make demo, make test.
 PYTHON ?= python3
 BIN := .venv/bin
-EXTRAS := --extra speech --extra study --extra dask --extra ray
+EXTRAS := --extra speech --extra serve --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
-.PHONY: demo test lint coverage bench picture requirements clean
+.PHONY: demo test lint coverage check-all screenshots bench picture requirements clean
 
 demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
@@ -22,6 +22,13 @@ lint: .venv/tested
 # Compiled code leaves no trace in a coverage report, so the core is measured in a second short run without compilation.
 coverage: .venv/tested
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest tests/core -m 'not slow' --cov=src/fetch_pomdp/core --cov-report=term --cov-fail-under=95
+
+# What takes long or needs more: whole interactions in Debian's Chromium (apt install chromium).
+check-all: test .venv/browser
+	$(BIN)/pytest -m browser tests/e2e
+
+screenshots: .venv/browser
+	$(BIN)/python docs/make_screenshots.py
 
 bench: .venv/tested
 	$(BIN)/pip install -q -r requirements/bench.txt
@@ -44,11 +51,16 @@ picture: .venv/installed
 	@$(BIN)/pip install -q --disable-pip-version-check -r requirements/test.txt
 	@touch $@
 
+.venv/browser: .venv/tested requirements/browser.txt
+	@$(BIN)/pip install -q --disable-pip-version-check -r requirements/browser.txt
+	@touch $@
+
 # Pins without registry addresses; needs uv.
 requirements:
-	uv pip compile pyproject.toml --universal --extra speech --no-header --no-annotate -q -o requirements/run.txt
+	uv pip compile pyproject.toml --universal --extra speech --extra serve --no-header --no-annotate -q -o requirements/run.txt
 	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --no-header --no-annotate -q -o requirements/test.txt
 	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group bench --no-header --no-annotate -q -o requirements/bench.txt
+	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group browser --no-header --no-annotate -q -o requirements/browser.txt
 
 clean:
 	rm -rf .venv .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis

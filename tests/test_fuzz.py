@@ -132,7 +132,7 @@ def read_log(path: Path) -> None:
     except InputError as error:
         check(str(error))
         return
-    log = EventLog(io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), recording.header)
+    log = EventLog.begin(io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), recording.header)
     for event in recording.events:
         log.write(event)
     json.dumps(header_to_json(recording.header), allow_nan=False)

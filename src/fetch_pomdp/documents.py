@@ -50,7 +50,11 @@ def read_raw(path: str | Path, error: type[InputError]) -> bytes:
 
 def read_toml(path: str | Path, error: type[InputError]) -> Document:
     """Read a TOML file. Raises `error`, with the line, for broken TOML."""
-    text = read_text(path, error)
+    return parse_toml(read_text(path, error), str(path), error)
+
+
+def parse_toml(text: str, source: str, error: type[InputError]) -> Document:
+    """Read TOML from a text; `source` is its name in messages. Raises `error`, with the line, for broken TOML."""
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as cause:
@@ -58,12 +62,12 @@ def read_toml(path: str | Path, error: type[InputError]) -> Document:
         place = re.search(r"\s*\(at line (\d+), column \d+\)", message)
         line = int(place[1]) if place else text.count("\n") + 1
         broken = f"broken TOML: {message[: place.start()] if place else message}, expected `field = value` or a [table]"
-        raise error(broken, source=str(path), line=line) from None
+        raise error(broken, source=source, line=line) from None
     except RecursionError:
-        raise error("broken TOML: nested too deeply, expected a few levels", source=str(path)) from None
+        raise error("broken TOML: nested too deeply, expected a few levels", source=source) from None
     except ValueError as cause:  # a whole number of thousands of digits
         found, _, _ = str(cause).partition(";")
-        raise error(f"broken TOML: {found}, expected numbers of ordinary size", source=str(path)) from None
+        raise error(f"broken TOML: {found}, expected numbers of ordinary size", source=source) from None
     lines = _toml_lines(text)
 
     def line_of(field: str) -> int | None:
@@ -71,7 +75,7 @@ def read_toml(path: str | Path, error: type[InputError]) -> Document:
             field = field.rpartition("[" if field.endswith("]") else ".")[0]
         return lines.get(field, 1)
 
-    return Document(str(path), data, line_of)
+    return Document(source, data, line_of)
 
 
 def _toml_lines(text: str) -> dict[str, int]:

@@ -76,5 +76,9 @@ class StudyError(InputError):
     """A study's configuration, table or log cannot be used."""
 
 
+class MessageError(InputError):
+    """A message from a page that the server does not know or allow."""
+
+
 class MissingExtraError(FetchPomdpError, ImportError):
     """An optional library is not installed; the message is the line that installs it."""

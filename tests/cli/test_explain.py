@@ -14,11 +14,12 @@ import pytest
 from rich.console import Console
 
 from fetch_pomdp.cli import offline
-from fetch_pomdp.cli.explain import decision_to_json, explanation_to_json, show_decision
+from fetch_pomdp.cli.explain import show_decision
 from fetch_pomdp.cli.main import main
 from fetch_pomdp.core.action import Point
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.planners.fixed import AlwaysAsk
+from fetch_pomdp.files.decisions import decision_to_json, explanation_to_json
 from tests.cli.conftest import ASKED
 from tests.tables import table
 

@@ -104,7 +104,7 @@ class CountingStream(io.StringIO):
 
 def test_every_line_of_a_log_is_flushed() -> None:
     stream = CountingStream()
-    log = EventLog(stream, headers[0])
+    log = EventLog.begin(stream, headers[0])
     log.write(Acted(Wait()))
     log.write(Acted(Pick(2), Outcome.FAILED, None, 1.23456))
     assert stream.flushed == 3
@@ -370,3 +370,17 @@ def test_a_file_with_a_header_alone(tmp_path: Path) -> None:
     recording = read_recording(written(tmp_path, [{"scene": "unambiguous"}]))
     assert recording.events == ()
     assert recording.header.agent().belief == pytest.approx([1 / 6] * 6)
+
+
+def test_a_log_is_resumed_after_a_kill_without_the_line_cut_short(tmp_path: Path) -> None:
+    path = tmp_path / "log.jsonl"
+    first = Observed(Observation(("marker",)), time=1.0)
+    with EventLog.create(path, Header(scene=Scene.load("ambiguous"), scene_name="ambiguous")) as log:
+        log.write(first)
+    with path.open("ab") as file:
+        file.write(b'{"action": "po')
+    recording, resumed = EventLog.resume(path)
+    assert recording.events == (first,)
+    with resumed:
+        resumed.write(Acted(Point(2), time=3.0))
+    assert [event.time for event in read_recording(path).events] == [1.0, 3.0]

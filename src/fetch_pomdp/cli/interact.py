@@ -16,9 +16,8 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
-from fetch_pomdp.cli.explain import decision_to_json
 from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, loaded, warm_up
-from fetch_pomdp.cli.show import belief_to_json, show_event
+from fetch_pomdp.cli.show import show_event
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
@@ -28,6 +27,7 @@ from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.core.ports import Recognizer, SkeletonSource
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
+from fetch_pomdp.files.decisions import belief_to_json, decision_to_json
 from fetch_pomdp.files.events import event_to_json
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.recordings import EventLog

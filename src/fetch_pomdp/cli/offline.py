@@ -11,7 +11,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from fetch_pomdp.cli.explain import decision_to_json, show_decision
+from fetch_pomdp.cli.explain import show_decision
 from fetch_pomdp.cli.options import (
     Budget,
     Depth,
@@ -26,11 +26,12 @@ from fetch_pomdp.cli.options import (
     loaded,
     warm_up,
 )
-from fetch_pomdp.cli.show import belief_to_json, show_event
+from fetch_pomdp.cli.show import show_event
 from fetch_pomdp.core.events import Observed
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import simulate as simulated
 from fetch_pomdp.errors import EventError
+from fetch_pomdp.files.decisions import belief_to_json, decision_to_json
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.models import with_model
 from fetch_pomdp.files.recordings import read_recording

@@ -7,11 +7,9 @@ import threading
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
 
-from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.planners.base import Planner, PreparedPlanner
+from fetch_pomdp.core.planners.base import Planner, prepare
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
@@ -62,9 +60,6 @@ def warm_up(planner: Planner, problem: Problem) -> None:
     timer.daemon = True
     timer.start()
     try:
-        if isinstance(planner, PreparedPlanner):
-            planner.prepare(problem)
-        else:
-            planner.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
+        prepare(planner, problem)
     finally:
         timer.cancel()

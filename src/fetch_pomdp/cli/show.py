@@ -1,9 +1,8 @@
-"""How beliefs and events look on a terminal, and as JSON."""
+"""How beliefs and events look on a terminal."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from rich.console import Console
@@ -21,13 +20,6 @@ from fetch_pomdp.core.words import COURTESY
 
 BAR = 28  # characters of a belief of 1
 MOST_BARS = 8  # items shown of a larger scene, the likeliest
-
-
-def belief_to_json(agent: Agent) -> dict[str, Any]:
-    """Return the belief by item id, and the id of the item last asked about."""
-    ids = [item.id for item in agent.scene.items]
-    asked = None if agent.asked is None else ids[agent.asked]
-    return {"belief": dict(zip(ids, agent.belief.tolist(), strict=True)), "asked": asked}
 
 
 def show_event(event: Event, agent: Agent, console: Console) -> None:

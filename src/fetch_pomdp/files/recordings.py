@@ -10,6 +10,7 @@ from typing import Any, Self, TextIO
 
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Event
+from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.documents import Document
 from fetch_pomdp.errors import EventError
 from fetch_pomdp.files.events import event_to_json
@@ -44,9 +45,8 @@ class Recording:
 class EventLog:
     """Writes an interaction as it happens: each line is flushed, so that a kill loses at most the one being written."""
 
-    def __init__(self, stream: TextIO, header: Header) -> None:
-        self._stream, self._scene = stream, header.scene
-        self._write(header_to_json(header))
+    def __init__(self, stream: TextIO, scene: Scene) -> None:
+        self._stream, self._scene = stream, scene
 
     def write(self, event: Event) -> None:
         """Add an event."""
@@ -56,6 +56,10 @@ class EventLog:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the file."""
         self._stream.close()
 
     def _write(self, fields: Mapping[str, Any]) -> None:
@@ -63,15 +67,38 @@ class EventLog:
         self._stream.flush()
 
     @classmethod
+    def begin(cls, stream: TextIO, header: Header) -> Self:
+        """Start a log on an empty stream."""
+        log = cls(stream, header.scene)
+        log._write(header_to_json(header))
+        return log
+
+    @classmethod
     def create(cls, path: str | Path, header: Header) -> Self:
         """Start a log in a new file. Raises EventError if the file exists or cannot be written."""
         try:
-            return cls(Path(path).open("x", encoding="utf-8"), header)
+            return cls.begin(Path(path).open("x", encoding="utf-8"), header)
         except FileExistsError:
             raise EventError("found a file there already, expected a new one", source=str(path)) from None
         except (OSError, ValueError) as cause:
             reason = getattr(cause, "strerror", None) or cause
             raise EventError(f"cannot be written: {reason}, expected a folder for it", source=str(path)) from None
+
+    @classmethod
+    def resume(cls, path: str | Path) -> tuple[Recording, Self]:
+        """Return what a log holds, and the log open to go on; a last line that a kill cut short is dropped.
+
+        Raises InputError, with file, line and field, for a file that is no log.
+        """
+        try:
+            with Path(path).open("r+b") as file:
+                whole = file.read().rfind(b"\n") + 1
+                file.truncate(whole)
+        except (OSError, ValueError) as cause:
+            reason = getattr(cause, "strerror", None) or cause
+            raise EventError(f"cannot be read: {reason}, expected a log", source=str(path)) from None
+        recording = read_recording(path)
+        return recording, cls(Path(path).open("a", encoding="utf-8"), recording.header.scene)
 
 
 def read_recording(path: str | Path) -> Recording:

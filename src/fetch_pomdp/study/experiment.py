@@ -57,7 +57,7 @@ def _channel(speech: Speech, words: tuple[str, ...]) -> Channel:
 def logged(header: Header, events: Iterable[Event]) -> str:
     """Return the log of an interaction."""
     text = io.StringIO()
-    log = EventLog(text, header)
+    log = EventLog.begin(text, header)
     for event in events:
         log.write(event)
     return text.getvalue()

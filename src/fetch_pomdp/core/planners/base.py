@@ -70,6 +70,14 @@ class BudgetPlanner(Planner, Protocol):
         ...
 
 
+def prepare(planner: Planner, problem: Problem) -> None:
+    """Load what a planner has compiled, and let it solve the problem, so that no decision is kept waiting."""
+    if isinstance(planner, PreparedPlanner):
+        planner.prepare(problem)
+    else:
+        planner.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
+
+
 def pick_values(belief: Vector, problem: Problem) -> Vector:
     """Return the expected reward of picking each item, (n_items,)."""
     rewards = problem.rewards

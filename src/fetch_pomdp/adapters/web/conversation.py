@@ -1,0 +1,136 @@
+"""One person and one robot: a live interaction in a thread of its own, written down as it happens.
+
+Choice: nothing is decided before the person has said or shown something, nor after IDLE seconds in which they did not:
+a robot that speaks to an empty room helps nobody, and the time of an interaction begins with the request (Section IV).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import logging
+import threading
+from collections.abc import Callable
+
+from fetch_pomdp.adapters.speech.espeak import Voice
+from fetch_pomdp.adapters.web.ears import Ears, Hearing
+from fetch_pomdp.adapters.web.journal import Journal
+from fetch_pomdp.adapters.web.robot import ARM, SPEAK, PageRobot
+from fetch_pomdp.adapters.web.tell import Told, complaint, saying, update_to_json
+from fetch_pomdp.core.interaction import Timing
+from fetch_pomdp.core.live import LIVE, Did, Ended, Heard, Inbox, LiveSession, RealClock, Update
+from fetch_pomdp.core.planners.base import prepare
+from fetch_pomdp.core.ports import Frame, Word
+from fetch_pomdp.errors import MessageError
+
+logger = logging.getLogger(__name__)
+
+IDLE = 30.0  # s
+TIMING: Timing = dataclasses.replace(LIVE, question=ARM + SPEAK + LIVE.wait, overlap=SPEAK, silence=8.0)
+
+
+class Conversation:
+    """An interaction that rests while its person is silent. tell: takes messages, from any thread, and returns soon."""
+
+    def __init__(
+        self,
+        journal: Journal,
+        tell: Callable[[Told], None],
+        *,
+        insight: bool,
+        voice: Voice | None,
+        hearing: Hearing | None,
+    ) -> None:
+        self._journal, self._tell, self._insight, self._voice = journal, tell, insight, voice
+        self.clock = RealClock(journal.time)
+        self._agent = journal.agent()
+        self._robot = PageRobot(self._say)
+        self._leaving, self._came = threading.Event(), threading.Event()  # came: something to go on with
+        self._heard_at = self.clock.now()
+        self.inbox, self._session = self._rest()
+        words = self._agent.scene.words
+        self._ears = None if hearing is None else Ears(hearing, words, lambda: self.inbox, self.clock.now)
+        self._thread = threading.Thread(target=self._run, name=f"conversation {journal.name[:8]}", daemon=True)
+
+    def start(self) -> None:
+        """Begin, in a thread."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """End, from any thread; what was going on is stopped, and is no part of the journal."""
+        self._leaving.set()
+        self._came.set()
+        self._session.close()
+        if self._ears is not None:
+            self._ears.close()
+
+    def join(self, timeout: float) -> None:
+        """Wait until the thread has ended."""
+        self._thread.join(timeout)
+
+    def type(self, text: str) -> None:
+        """Hear a text."""
+        now = self.clock.now()
+        self._heard_at = now
+        for part in text.split():
+            self.inbox.push_word(Word(part, now, now))
+
+    def point(self, frame: Frame) -> None:
+        """See a skeleton."""
+        self._heard_at = frame.time
+        self.inbox.push_frame(frame)
+
+    def hear(self, pcm: bytes) -> None:
+        """Hear sound. Raises MessageError for what is none, and where there are no ears."""
+        if self._ears is None:
+            raise MessageError("found sound, expected none: this server has no ears")
+        self._ears.hear(pcm)
+
+    def hush(self) -> None:
+        """Know that no sound follows for now."""
+        if self._ears is not None:
+            self._ears.end()
+
+    def _rest(self) -> tuple[Inbox, LiveSession]:
+        inbox = Inbox()
+        inbox.subscribe(lambda _: self._came.set())
+        listen, clock = self._listen, self.clock
+        return inbox, LiveSession(self._agent, self._robot, inbox, listener=listen, clock=clock, timing=TIMING)
+
+    def _run(self) -> None:
+        try:
+            self._prepare()
+            while self._journal.picked is None and not self._leaving.is_set():
+                self._came.wait()
+                self._came.clear()
+                self._session.run()
+                before = self.inbox
+                self.inbox, self._session = self._rest()
+                for word in before.pending().words:
+                    self.inbox.push_word(word)
+        except Exception as error:
+            logger.exception("a conversation broke off")
+            self._tell(complaint(error, "broken"))
+
+    def _prepare(self) -> None:
+        self._tell({"type": "status", "sensor": "planner", "state": "slow", "text": "The robot is getting ready."})
+        prepare(self._agent.planner, self._agent.problem)
+        self._tell({"type": "status", "sensor": "planner", "state": "ok", "text": "The robot is ready."})
+
+    def _say(self, sentence: str) -> None:
+        if self._voice is not None and self._ears is not None:
+            self._ears.mute(self._voice.seconds(sentence))
+        self._tell(saying(sentence, audible=self._voice is not None))
+
+    def _listen(self, update: Update) -> None:
+        """Write down what has happened, then tell it: what a page has seen is never lost."""
+        if self._leaving.is_set() or (isinstance(update, Ended) and update.picked is None):
+            return
+        if isinstance(update, Did | Heard):
+            self._journal.write(update.event)
+        if isinstance(update, Heard) and update.event.words:
+            self._heard_at = self.clock.now()
+        if isinstance(update, Heard) and self.clock.now() - self._heard_at > IDLE:
+            self._session.close()
+        told = update_to_json(update, self._agent, insight=self._insight)
+        if told is not None:
+            self._tell(told)

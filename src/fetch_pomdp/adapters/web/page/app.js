@@ -1,0 +1,267 @@
+// The page: what the server tells is shown, what the person says and shows is sent.
+
+import { Connection } from "./connection.js";
+import { Editor } from "./editor.js";
+import { vector } from "./geometry.js";
+import { Labels } from "./labels.js";
+import { Mind } from "./mind.js";
+import { Speech } from "./speech.js";
+import { Stage } from "./stage.js";
+import { chosenLanguage, english, isEnglish, setLanguage, text } from "./texts.js";
+
+const $ = (selector) => document.querySelector(selector);
+const ARM = 0.6; // m, from the head to the wrist of an arm that points
+const REPEAT = 80; // ms between rays while the person points
+const SHOWN = 1200; // ms that pointing by the keyboard lasts
+
+let scene = null, insight = true, latest = null, target = null, pointing = null, bubbleTimer = null, state = "connecting";
+
+setLanguage(chosenLanguage());
+$("#language").value = chosenLanguage();
+const connection = new Connection(told, changed);
+const stage = makeStage();
+const labels = new Labels($("#items"), (id) => pointAt(id));
+const mind = new Mind();
+const speech = new Speech(connection, (words) => say(words), (error) => show(text("no_microphone", { reason: error })));
+const editor = new Editor(stage, labels, (toml) => begin({ toml }));
+
+function makeStage() {
+  try {
+    return new Stage($("#view"), follow);
+  } catch {
+    $("#stage").classList.add("flat");
+    $("#hint").textContent = text("no_3d");
+    return null;
+  }
+}
+
+function begin(table) {
+  $("#scene").value = typeof table === "string" ? table : "own";
+  connection.begin({ scene: table, planner: $("#planner").value, seed: Math.floor(Math.random() * 2 ** 31) });
+}
+
+// What the server tells.
+
+function changed(now) {
+  state = now;
+  $("#state").textContent = text(now);
+}
+
+function show(line) {
+  $("#state").textContent = line;
+}
+
+function told(message) {
+  ({ welcome, belief, decided, observed: happened, action: acted, say: spoken, status, ended, error })[message.type]?.(message);
+}
+
+function welcome(message) {
+  scene = message.scene;
+  insight = message.insight;
+  $("#thinking").hidden = !insight;
+  applyThinking();
+  $("#scene").value = message.scene_name ?? "own";
+  $("#scene [value=own]").hidden = message.scene_name !== null;
+  $("#planner").value = message.planner;
+  $("#end").hidden = true;
+  $("#answers").hidden = true;
+  speech.offer(message.ears);
+  labels.set(scene, insight);
+  labels.hide(null);
+  mind.set(scene);
+  stage?.set(scene);
+  editor.load(scene);
+  message.past.forEach((event) => mind.tell(event));
+  if (message.belief) believe(message.belief, false);
+  if (message.picked) ended(message);
+  else if (message.resumed) show(text("resumed"));
+  else bubble("greeting", 6000);
+}
+
+function believe(shares, provisional) {
+  latest = shares;
+  labels.believe(shares, provisional);
+  if (!provisional) mind.believe(shares);
+}
+
+function belief(message) {
+  if (!message.belief) return;
+  believe(message.belief, message.provisional);
+  if (!message.provisional) mind.conclude(message.belief);
+}
+
+function decided(message) {
+  mind.decide(message);
+  labels.about(message.item ?? null);
+  if (message.action === "point") stage?.ask(message.item);
+  if (message.action === "pick") stage?.fetch(message.item);
+  if (message.action !== "wait") $("#answers").hidden = true;
+}
+
+function happened(message) {
+  mind.tell(message);
+  if (!message.observation.utterance) return;
+  $("#answers").hidden = true;
+  stage?.rest();
+}
+
+function acted(message) {
+  mind.tell(message);
+  if (message.outcome !== "done") stage?.rest();
+}
+
+function spoken(message) {
+  bubble(message.key, 3500, message.text);
+  if (message.key === "asks") $("#answers").hidden = false; // an answer given before is none to this question
+  speech.say(message);
+}
+
+function status(message) {
+  if (message.sensor === "planner") show(text(message.state === "ok" ? "ready" : "preparing"));
+  else if (message.sensor === "model" || message.sensor === "robot") show(message.state === "ok" ? text("ready") : text(`sensor_${message.sensor}`));
+  else show(text(`sensor_${message.sensor}`, { state: text(`state_${message.state}`) }));
+}
+
+function ended({ picked }) {
+  $("#outcome").textContent = text("got", { item: picked });
+  $("#end").hidden = false;
+  $("#answers").hidden = true;
+  labels.about(picked);
+  announce(text("got", { item: picked }));
+}
+
+function error({ message }) {
+  if (!editor.refused(message)) show(text("refused", { message }));
+}
+
+// What the robot says: as a bubble, and to screen readers.
+
+function bubble(key, duration, plain = null) {
+  const line = key ? english(key) : plain;
+  const element = $("#bubble");
+  element.replaceChildren(line);
+  element.lang = "en";
+  if (key && !isEnglish()) {
+    const translated = document.createElement("small");
+    translated.textContent = text(key);
+    element.append(translated);
+  }
+  element.hidden = false;
+  announce(line);
+  clearTimeout(bubbleTimer);
+  bubbleTimer = setTimeout(() => { element.hidden = true; }, duration);
+  stage?.draw();
+}
+
+function announce(line) {
+  $("#spoken").textContent = line;
+}
+
+function follow() {
+  if (!scene) return;
+  labels.follow(stage);
+  const { x, y } = stage.seen(stage.mouth());
+  const half = $("#bubble").offsetWidth / 2 + 8, width = $("#stage").clientWidth;
+  $("#bubble").style.transform = `translate(${Math.min(Math.max(x, half), width - half).toFixed(1)}px, ${Math.max(y, 76).toFixed(1)}px)`;
+}
+
+// What the person says.
+
+function say(words) {
+  const line = words.trim();
+  if (line) connection.send({ type: "typed", text: line });
+}
+
+$("#talk").addEventListener("submit", (event) => {
+  event.preventDefault();
+  say($("#say").value);
+  $("#say").value = "";
+});
+for (const button of document.querySelectorAll("[data-say]")) button.addEventListener("click", () => { say(button.dataset.say); $("#answers").hidden = true; $("#say").focus(); });
+$("#stop").addEventListener("click", () => say("stop"));
+
+// Where the person points: with the mouse or a finger held down, or with an item's button.
+
+function send() {
+  const head = vector(scene.head), way = target.clone().sub(head).setLength(ARM);
+  connection.send({ type: "ray", head: scene.head, wrist: head.add(way).toArray() });
+}
+
+function pointTo(place) {
+  if (!place) return;
+  target = place;
+  stage?.point(target);
+  if (pointing === null) {
+    pointing = setInterval(send, REPEAT);
+    send();
+  }
+}
+
+function endPointing() {
+  clearInterval(pointing);
+  pointing = null;
+  stage?.point(null);
+}
+
+function pointAt(id) {
+  if (editor.open) return;
+  const item = scene.items.find((each) => each.id === id);
+  pointTo(vector(item.position));
+  setTimeout(endPointing, SHOWN);
+}
+
+const view = $("#view");
+const placeOf = (event) => stage.at(event.offsetX, event.offsetY);
+view.addEventListener("pointerdown", (event) => {
+  if (!scene || event.button) return;
+  view.setPointerCapture(event.pointerId);
+  if (editor.open) editor.grab(placeOf(event));
+  else pointTo(placeOf(event));
+});
+view.addEventListener("pointermove", (event) => {
+  if (editor.held) editor.drag(placeOf(event));
+  else if (pointing !== null && event.buttons) pointTo(placeOf(event));
+});
+for (const kind of ["pointerup", "pointercancel"]) view.addEventListener(kind, () => { editor.drop(); if (pointing !== null) endPointing(); });
+
+// The menu.
+
+function applyThinking() {
+  document.body.classList.toggle("plain", !insight || $("#thinking").getAttribute("aria-pressed") !== "true");
+}
+
+function disclose(button, panel) {
+  $(button).addEventListener("click", () => {
+    const open = $(panel).hidden;
+    for (const [each, other] of [["#options", "#settings"], ["#edit", "#editor"]]) {
+      $(other).hidden = !(open && other === panel);
+      $(each).setAttribute("aria-expanded", String(open && other === panel));
+    }
+    editor.shown(!$("#editor").hidden);
+  });
+}
+
+$("#thinking").addEventListener("click", () => {
+  const pressed = $("#thinking").getAttribute("aria-pressed") === "true";
+  $("#thinking").setAttribute("aria-pressed", String(!pressed));
+  applyThinking();
+});
+disclose("#options", "#settings");
+disclose("#edit", "#editor");
+document.addEventListener("keydown", (event) => {
+  if (event.key !== "Escape") return;
+  for (const [button, panel] of [["#options", "#settings"], ["#edit", "#editor"]]) if (!$(panel).hidden) { $(button).click(); $(button).focus(); }
+});
+$("#language").addEventListener("change", () => {
+  setLanguage($("#language").value);
+  changed(state);
+  if (scene) { labels.set(scene, insight); if (latest) believe(latest, false); editor.load(scene); stage?.draw(); }
+  if (mind.decided) mind.decide(mind.decided);
+});
+const table = () => ($("#scene").value === "own" ? { toml: editor.toml() } : $("#scene").value);
+$("#scene").addEventListener("change", () => begin(table()));
+$("#planner").addEventListener("change", () => begin(table()));
+$("#again").addEventListener("click", () => { begin(table()); $("#say").focus(); });
+
+if (connection.resume) connection.begin(null);
+else begin("ambiguous");

@@ -1,0 +1,63 @@
+// The line to the server. It comes back by itself, and goes on where it was.
+
+const TAKEN_OVER = 4001;
+const REFUSED = 1008;
+const SLOWEST = 5000; // ms between attempts
+
+export class Connection {
+  #socket = null;
+  #attempts = 0;
+  #hello = null;
+
+  constructor(told, changed) {
+    this.told = told; // called with each message
+    this.changed = changed; // called with "connecting", "lost" or "moved"
+    this.token = new URLSearchParams(location.hash.slice(1)).get("token");
+  }
+
+  get resume() { return sessionStorage.getItem("resume"); }
+
+  // Begin an interaction; without a scene, go on with the last one.
+  begin(hello) {
+    if (hello) sessionStorage.removeItem("resume");
+    this.#hello = hello ?? this.#hello ?? {};
+    this.#attempts = 0;
+    this.#connect();
+  }
+
+  send(message) {
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(message instanceof ArrayBuffer ? message : JSON.stringify(message));
+  }
+
+  #connect() {
+    if (this.#socket) {
+      this.#socket.onclose = null;
+      this.#socket.close();
+    }
+    this.changed(this.#attempts ? "lost" : "connecting");
+    const address = new URL("session", location.href);
+    address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+    address.hash = "";
+    const socket = new WebSocket(address);
+    this.#socket = socket;
+    socket.onopen = () => this.send({ type: "hello", version: 1, ...this.#hello, resume: this.resume, token: this.token });
+    socket.onmessage = ({ data }) => this.#received(JSON.parse(data));
+    socket.onclose = ({ code }) => this.#lost(code);
+  }
+
+  #received(message) {
+    if (message.type === "welcome") {
+      this.#attempts = 0;
+      sessionStorage.setItem("resume", message.resume);
+    }
+    this.told(message);
+  }
+
+  #lost(code) {
+    if (code === TAKEN_OVER) this.changed("moved");
+    if (code === TAKEN_OVER || code === REFUSED) return;
+    this.#attempts += 1;
+    this.changed("lost");
+    setTimeout(() => this.#connect(), Math.min(250 * 2 ** this.#attempts, SLOWEST));
+  }
+}

@@ -1,0 +1,162 @@
+"""What a page and the server say to each other: JSON texts over a WebSocket, and sound as binary frames.
+
+A page says hello, and from then on what its person types and where they point; the server tells what the robot does.
+Every message has a `type`; an unknown field is refused, so that a misspelt one is not passed over.
+
+Choice: in most seconds live people neither speak nor point, and who has said what they want falls silent. At the
+paper's chances of speaking and pointing in a step, 0.95 and 0.1, the robot would wait for their next word for ever
+(Section V saw that too). A page's tables have 0.3 and 0.02 unless a scene file says otherwise. What a word or a gesture
+does to the belief is the same with both; only what the robot expects of the next second differs.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from fetch_pomdp import checks
+from fetch_pomdp.checks import Point3, shown
+from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.documents import parse_toml
+from fetch_pomdp.errors import MessageError, SceneError
+
+VERSION = 1
+LARGEST_MESSAGE = 65_536  # bytes, of text or sound
+LONGEST_TEXT = 300  # letters a person types at once
+MOST_ITEMS = 40  # a planner solves so many in a second or two
+LIVE_MODEL: Mapping[str, Any] = {"p_l": 0.3, "p_g": 0.02}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hello:
+    """The first message: which table, which planner, and which interaction to go on with, if any."""
+
+    scene: Scene
+    scene_name: str | None
+    planner: str
+    seed: int
+    resume: str | None
+    token: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Typed:
+    """The person typed something, which is heard as if it was said."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pointed:
+    """The person points now, from head through wrist (m)."""
+
+    head: Point3
+    wrist: Point3
+
+
+@dataclass(frozen=True, slots=True)
+class Microphone:
+    """The page begins or ceases to send sound."""
+
+    on: bool
+
+
+Message: TypeAlias = Hello | Typed | Pointed | Microphone
+
+
+def message_from_text(text: str) -> Message:
+    """Read a message of a page. Raises MessageError or SceneError, naming the field, for what is none."""
+    if len(text.encode("utf-8", "surrogatepass")) > LARGEST_MESSAGE:
+        raise MessageError(f"found a larger message, expected at most {LARGEST_MESSAGE} bytes")
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError):
+        raise MessageError("found no JSON, expected a JSON object") from None
+    fields = dict(checks.mapping(data, "", MessageError))
+    kind = fields.pop("type", None)
+    if not isinstance(kind, str) or kind not in _READERS:
+        raise MessageError(f"found {shown(kind)}, expected one of {', '.join(_READERS)}", field="type")
+    names, read = _READERS[kind]
+    checks.known(fields, names, "field", MessageError)
+    return read(fields)
+
+
+def _hello(data: Mapping[str, Any]) -> Hello:
+    if type(data.get("version")) is not int or data["version"] != VERSION:
+        raise MessageError(f"found {shown(data.get('version'))}, expected {VERSION}", field="version")
+    planner, seed = data.get("planner", DEFAULT), data.get("seed", 0)
+    if not isinstance(planner, str) or planner not in PLANNERS:
+        raise MessageError(f"found {shown(planner)}, expected one of {', '.join(PLANNERS)}", field="planner")
+    if type(seed) is not int or not 0 <= seed < 2**53:
+        raise MessageError(f"found {shown(seed)}, expected a whole number from 0", field="seed")
+    scene, name = _scene(data.get("scene", "ambiguous"))
+    resume, token = (_optional_text(data.get(field), field) for field in ("resume", "token"))
+    return Hello(scene=scene, scene_name=name, planner=planner, seed=seed, resume=resume, token=token)
+
+
+def _scene(value: object) -> tuple[Scene, str | None]:
+    """Read a built-in scene's name, or {"toml": the text of a scene file}."""
+    if isinstance(value, str):
+        return live_scene(value), value
+    data = checks.mapping(value, "scene", MessageError)
+    checks.known(data, ("toml",), "field", MessageError)
+    checks.required(data, ("toml",), MessageError)
+    text = checks.text(data["toml"], "scene.toml", "the text of a scene file", MessageError)
+    scene = parse_toml(text, "table", SceneError).build(_lively)
+    if len(scene.items) > MOST_ITEMS:
+        raise SceneError(f"found {len(scene.items)}, expected at most {MOST_ITEMS}", field="items", source="table")
+    return scene, None
+
+
+def live_scene(name: str) -> Scene:
+    """Return a built-in scene with the model of live people."""
+    if name not in LAYOUTS:
+        raise MessageError(f"found {shown(name)}, expected one of {', '.join(LAYOUTS)}", field="scene")
+    return _lively(LAYOUTS[name])
+
+
+def _lively(data: Mapping[str, Any]) -> Scene:
+    """Build a scene; where it does not say how often people speak and point, they do as live ones."""
+    model = data.get("model", {})
+    return Scene.from_mapping({**data, "model": {**LIVE_MODEL, **model} if isinstance(model, Mapping) else model})
+
+
+def _optional_text(value: object, field: str) -> str | None:
+    if value is None:
+        return None
+    text = checks.text(value, field, "a text or null", MessageError)
+    if len(text) > LONGEST_TEXT:
+        raise MessageError(f"found {len(text)} letters, expected at most {LONGEST_TEXT}", field=field)
+    return text
+
+
+def _typed(data: Mapping[str, Any]) -> Typed:
+    text = _optional_text(data.get("text"), "text")
+    if text is None:
+        raise MessageError("found none, expected what was typed", field="text")
+    return Typed(text)
+
+
+def _pointed(data: Mapping[str, Any]) -> Pointed:
+    checks.required(data, ("head", "wrist"), MessageError)
+    ray = Ray(data["head"], data["wrist"])
+    return Pointed(ray.head, ray.wrist)
+
+
+def _microphone(data: Mapping[str, Any]) -> Microphone:
+    if type(data.get("on")) is not bool:
+        raise MessageError(f"found {shown(data.get('on'))}, expected true or false", field="on")
+    return Microphone(data["on"])
+
+
+_READERS: Mapping[str, tuple[Sequence[str], Callable[[Mapping[str, Any]], Message]]] = {
+    "hello": (("version", "scene", "planner", "seed", "resume", "token"), _hello),
+    "typed": (("text",), _typed),
+    "ray": (("head", "wrist"), _pointed),
+    "microphone": (("on",), _microphone),
+}

@@ -1,0 +1,48 @@
+"""The robot of the page: its body moves there, and the server waits as long as a body would take."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+from fetch_pomdp.adapters.web.tell import ASKS, HANDS_OVER
+from fetch_pomdp.core.ports import Outcome
+from fetch_pomdp.core.scene import Item
+
+ARM = 1.0  # s, from rest to pointing at an item
+SPEAK = 0.8  # s, "this one?"
+GRASP = 1.2  # s, from rest to holding an item
+CARRY = 1.6  # s, from there to the person
+
+
+class PageRobot:
+    """A LiveRobot. say: sends a sentence to the page, which knows of the movements from the decisions."""
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        self._say = say
+        self._stopped = threading.Event()
+
+    def point(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Point at an item, then ask."""
+        self._stopped.clear()
+        return self._then(ARM, ASKS, SPEAK)
+
+    def pick(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Take an item to the person, and say so when it is theirs."""
+        self._stopped.clear()
+        return self._then(GRASP + CARRY, HANDS_OVER, 0.0)
+
+    def say(self, text: str) -> Outcome:
+        """Say something; the robot listens meanwhile."""
+        self._say(text)
+        return Outcome.DONE
+
+    def stop(self) -> None:
+        """Stop what is going on."""
+        self._stopped.set()
+
+    def _then(self, before: float, sentence: str, after: float) -> Outcome:
+        if self._stopped.wait(before):
+            return Outcome.STOPPED
+        self._say(sentence)
+        return Outcome.STOPPED if self._stopped.wait(after) else Outcome.DONE

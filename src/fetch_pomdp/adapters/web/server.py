@@ -1,0 +1,118 @@
+"""The page's server: files, the robot's voice, and a WebSocket for each person."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable
+from importlib.resources import files
+from typing import Any
+
+from fetch_pomdp.adapters.extras import load
+from fetch_pomdp.adapters.web.ears import hearing_if_installed, voice_if_installed
+from fetch_pomdp.adapters.web.gate import Gate
+from fetch_pomdp.adapters.web.hall import Config, Hall
+from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE, live_scene
+from fetch_pomdp.adapters.web.tell import SENTENCES
+from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.planners.base import prepare
+from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.errors import InputError
+
+EXTRA = "serve"
+HEADERS = {
+    # No script or style but our own files; only the server itself is talked to; no other site shows the page.
+    "content-security-policy": "default-src 'self'; img-src 'self' data:; object-src 'none'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'",
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "permissions-policy": "microphone=(self), camera=(self), geolocation=()",
+    "cache-control": "no-cache",
+}
+
+
+def create_app(config: Config) -> Any:
+    """Return the FastAPI application. Raises MissingExtraError without FastAPI."""
+    fastapi = load("fastapi", EXTRA)
+    routing, static = load("starlette.routing", EXTRA), load("starlette.staticfiles", EXTRA)
+    responses = load("starlette.responses", EXTRA)
+    voice, hearing = voice_if_installed(), hearing_if_installed()
+    hall = Hall(config, voice, hearing)
+
+    async def speak(request: Any) -> Any:
+        sentence = SENTENCES.get(request.path_params["key"])
+        if voice is None or sentence is None:
+            return responses.PlainTextResponse("no such sentence", status_code=404)
+        return responses.Response(voice.wav(sentence), media_type="audio/wav")
+
+    async def session(page: Any) -> None:
+        await hall.receive(page)
+
+    pages = static.StaticFiles(directory=str(files("fetch_pomdp.adapters.web") / "page"), html=True)
+    routes = [
+        routing.WebSocketRoute("/session", session),
+        routing.Route("/voice/{key}.wav", speak),
+        routing.Mount("/", pages),
+    ]
+    app = fastapi.FastAPI(routes=routes, docs_url=None, redoc_url=None, openapi_url=None)
+    app.add_middleware(Doorman, gate=hall.gate)
+    return app
+
+
+class Doorman:
+    """ASGI middleware: answers only requests under a name that is allowed, and adds the headers that guard a page."""
+
+    def __init__(self, app: Any, gate: Gate) -> None:
+        self._app, self._gate = app, gate
+
+    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+        """Pass a request on."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        responses = load("starlette.responses", EXTRA)
+        host = dict(scope["headers"]).get(b"host", b"").decode("latin-1")
+        allowed = self._gate.host_allowed(host)
+        app = self._app if allowed else responses.PlainTextResponse("unknown host", status_code=421)
+
+        async def guarded(message: Any) -> None:
+            if message["type"] == "http.response.start":
+                extra = [(name.encode(), value.encode()) for name, value in HEADERS.items()]
+                message = {**message, "headers": [*message["headers"], *extra]}
+            await send(message)
+
+        await app(scope, receive, guarded)
+
+
+def serve(config: Config, host: str, port: int, ready: Callable[[], None]) -> None:
+    """Serve until interrupted; `ready` is called when pages may come.
+
+    Raises MissingExtraError without uvicorn, InputError for an address that cannot be listened at.
+    """
+    uvicorn = load("uvicorn", EXTRA)
+    app = create_app(config)
+    try:
+        door = socket.create_server((host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET)
+    except OSError as error:
+        raise InputError(f"found {host}:{port} ({error.strerror}), expected a free address", field="--port") from None
+    threading.Thread(target=_get_ready, daemon=True).start()
+    settings = uvicorn.Config(
+        app,
+        log_level="warning",
+        server_header=False,
+        ws_max_size=LARGEST_MESSAGE,
+        ws_ping_interval=10.0,
+        ws_ping_timeout=20.0,
+        timeout_graceful_shutdown=3,
+    )
+    with door:
+        ready()
+        uvicorn.Server(settings).run(sockets=[door])
+
+
+def _get_ready() -> None:
+    """Compile the planner and solve the built-in tables before the first person comes."""
+    for name in LAYOUTS:
+        prepare(planner_named(DEFAULT), Problem(live_scene(name)))

@@ -1,0 +1,91 @@
+"""What the server tells a page, as JSON objects."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fetch_pomdp.core.action import Wait
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED
+from fetch_pomdp.core.language import split
+from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Heard, SensorStatus, Update
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.words import COURTESY
+from fetch_pomdp.errors import InputError
+from fetch_pomdp.files.decisions import decision_to_json
+from fetch_pomdp.files.events import action_to_json, event_to_json
+
+Told = dict[str, Any]
+
+ASKS, HANDS_OVER = "This one?", "Here you are."
+# All that the robot says; the page has these sentences in its languages, the server as sound.
+SENTENCES = {
+    "asks": ASKS,
+    "hands_over": HANDS_OVER,
+    "listening": LISTENING,
+    "failed": FAILED,
+    "objected": OBJECTED,
+}
+_KEYS = {sentence: key for key, sentence in SENTENCES.items()}
+
+
+def scene_to_json(scene: Scene) -> Told:
+    """Return the table as a page draws it: items, head, and the noise of pointing (rad)."""
+    fields = scene.to_mapping()
+    return {**fields, "sigma": scene.model.sigma, "threshold": scene.model.gesture_threshold}
+
+
+def saying(sentence: str, *, audible: bool) -> Told:
+    """Return what the robot says now, and where its sound is, if there is one."""
+    key = _KEYS.get(sentence)
+    audio = f"voice/{key}.wav" if audible and key is not None else None
+    return {"type": "say", "key": key, "text": sentence, "audio": audio}
+
+
+def belief_by_id(belief: Vector, scene: Scene) -> dict[str, float]:
+    """Return a belief, (n_items,), by the items' ids."""
+    return dict(zip((item.id for item in scene.items), belief.tolist(), strict=True))
+
+
+def update_to_json(update: Update, agent: Agent, *, insight: bool) -> Told | None:
+    """Return an update as a message, or None where there is nothing to tell.
+
+    insight: whether the person may know what the robot believes and why it does what it does.
+    """
+    scene = agent.scene
+    if isinstance(update, BeliefChanged):
+        fields = {"type": "belief", "t": update.time, "provisional": update.provisional, "heard": list(update.words)}
+        return {**fields, "belief": belief_by_id(update.belief, scene)} if insight else fields
+    if isinstance(update, Decided):
+        if not insight:
+            return {"type": "decided", "t": update.time, **action_to_json(update.decision.action, scene)}
+        return {"type": "decided", "t": update.time, **decision_to_json(update.decision, scene)}
+    if isinstance(update, Did | Heard):
+        return event_message(update.event, agent)
+    if isinstance(update, SensorStatus):
+        return {"type": "status", "sensor": update.name, "state": update.state.value, "text": update.text}
+    return {"type": "ended", "picked": update.picked}
+
+
+def event_message(event: Event, agent: Agent) -> Told | None:
+    """Return an event of the log as a message; silent observations and finished waits are nobody's news."""
+    if isinstance(event, Acted):
+        if isinstance(event.action, Wait):
+            return None
+        return {"type": "action", "outcome": event.outcome.value, **event_to_json(event, agent.scene)}
+    if not event.observation.words and event.observation.ray is None:
+        return None
+    return {"type": "observed", "unknown": _unknown(event, agent), **event_to_json(event, agent.scene)}
+
+
+def _unknown(event: Observed, agent: Agent) -> list[str]:
+    """Return the words that the model does not know, without those of courtesy."""
+    return [word for word in split(event.observation.words, agent.problem).unknown if word not in COURTESY]
+
+
+def complaint(error: Exception, code: str = "refused") -> Told:
+    """Return an error as a page is told of it; what is none of the person's making is not described."""
+    text = str(error) if isinstance(error, InputError) else "something went wrong on the server"
+    return {"type": "error", "code": code, "message": text}

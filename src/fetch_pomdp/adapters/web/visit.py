@@ -1,0 +1,129 @@
+"""A page while it is connected: what it sends goes to its conversation, what that tells goes to the page."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+from typing import Any
+
+from fetch_pomdp.adapters.web.conversation import Conversation
+from fetch_pomdp.adapters.web.gate import Allowance
+from fetch_pomdp.adapters.web.outbox import Outbox
+from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE, Hello, Microphone, Pointed, Typed, message_from_text
+from fetch_pomdp.adapters.web.tell import Told, complaint
+from fetch_pomdp.core.ports import Frame
+from fetch_pomdp.errors import InputError, MessageError
+
+logger = logging.getLogger(__name__)
+
+# Codes that close a WebSocket: of RFC 6455, and from 4000 our own.
+POLICY, TRY_LATER, TAKEN_OVER = 1008, 1013, 4001
+FAREWELL = 5.0  # s a conversation may take to end
+FORBEARANCE = 200  # messages too many after which a page is let go
+
+
+class GoneError(Exception):
+    """The page has left."""
+
+
+async def received(socket: Any) -> str | bytes:
+    """Return the next message of a page. Raises GoneError when it has left."""
+    message = await socket.receive()
+    if message["type"] != "websocket.receive":
+        raise GoneError
+    text = message.get("text")
+    return text if text is not None else message.get("bytes") or b""
+
+
+async def send(socket: Any, told: Told) -> None:
+    """Send a message. Raises GoneError when the page has left."""
+    try:
+        await socket.send_text(json.dumps(told, ensure_ascii=False, allow_nan=False))
+    except Exception as error:  # every server has its own
+        raise GoneError from error
+
+
+async def close(socket: Any, code: int) -> None:
+    """Close a page's WebSocket. Raises GoneError when the page has left."""
+    try:
+        await socket.close(code)
+    except Exception as error:  # every server has its own
+        raise GoneError from error
+
+
+class Visit:
+    """A page and its conversation. messages, sound: what it may send a second, in messages and in bytes of sound."""
+
+    def __init__(
+        self, socket: Any, conversation: Conversation, outbox: Outbox, *, messages: float, sound: float
+    ) -> None:
+        self._socket, self._conversation, self._outbox = socket, conversation, outbox
+        self._messages, self._sound = Allowance(messages, 2 * messages), Allowance(sound, sound + LARGEST_MESSAGE)
+        self._too_many = 0
+        self._let_go, self._over = asyncio.Event(), asyncio.Event()
+
+    async def last(self) -> None:
+        """Carry messages both ways until the page has left, and end the conversation then."""
+        self._conversation.start()
+        ways = [asyncio.create_task(way) for way in (self._from_page(), self._to_page(), self._until_let_go())]
+        try:
+            done, _ = await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
+            for way in done:
+                if not isinstance(way.exception(), GoneError):
+                    way.result()
+        finally:
+            for way in ways:
+                way.cancel()
+            self._conversation.close()
+            await asyncio.to_thread(self._conversation.join, FAREWELL)
+            self._over.set()
+
+    async def leave(self) -> None:
+        """Let the page go, because its person came back on another, and wait until the conversation has ended."""
+        self._let_go.set()
+        await self._over.wait()
+
+    async def _until_let_go(self) -> None:
+        """End, whether the page says farewell or is dead."""
+        await self._let_go.wait()
+        await close(self._socket, TAKEN_OVER)
+
+    async def _to_page(self) -> None:
+        while True:
+            if self._outbox.overfull:
+                await close(self._socket, TRY_LATER)
+                return
+            for told in await self._outbox.take():
+                await send(self._socket, told)
+
+    async def _from_page(self) -> None:
+        while True:
+            message = await received(self._socket)
+            amount = len(message) if isinstance(message, bytes) else 1
+            allowance = self._sound if isinstance(message, bytes) else self._messages
+            if not allowance.take(amount):
+                self._too_many += 1
+                if self._too_many > FORBEARANCE:
+                    await close(self._socket, POLICY)
+                    return
+                continue
+            try:
+                self._pass_on(message)
+            except InputError as error:
+                self._outbox.put(complaint(error))
+
+    def _pass_on(self, message: str | bytes) -> None:
+        if isinstance(message, bytes):
+            self._conversation.hear(message)
+            return
+        said = message_from_text(message)
+        if isinstance(said, Typed):
+            self._conversation.type(said.text)
+        elif isinstance(said, Pointed):
+            self._conversation.point(Frame(self._conversation.clock.now(), said.head, (said.wrist,)))
+        elif isinstance(said, Microphone):
+            if not said.on:
+                self._conversation.hush()
+        elif isinstance(said, Hello):
+            raise MessageError("found hello again, expected it once", field="type")

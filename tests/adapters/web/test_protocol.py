@@ -1,0 +1,124 @@
+"""What a page may send: understood, or refused with the field that is wrong."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fetch_pomdp.adapters.web.protocol import (
+    LARGEST_MESSAGE,
+    LIVE_MODEL,
+    MOST_ITEMS,
+    Hello,
+    Microphone,
+    Pointed,
+    Typed,
+    message_from_text,
+)
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.errors import InputError
+
+TABLE = """
+head = [0.0, 0.0, 1.6]
+[[items]]
+id = "mug"
+position = [0.1, 1.0, 0.75]
+vocabulary = ["mug"]
+"""
+
+
+def hello(**fields: Any) -> Hello:
+    message = message_from_text(json.dumps({"type": "hello", "version": 1, **fields}))
+    assert isinstance(message, Hello)
+    return message
+
+
+def test_hello_has_defaults() -> None:
+    message = hello()
+    assert (message.scene_name, message.planner, message.seed, message.resume) == ("ambiguous", "fitted", 0, None)
+    assert message.scene.items == Scene.load("ambiguous").items
+
+
+def test_a_page_s_tables_expect_live_people_unless_their_file_does_not() -> None:
+    assert hello().scene.model.p_l == hello(scene={"toml": TABLE}).scene.model.p_l == LIVE_MODEL["p_l"]
+    own = hello(scene={"toml": TABLE + "[model]\np_l = 0.9\n"}).scene.model
+    assert (own.p_l, own.p_g) == (0.9, LIVE_MODEL["p_g"])
+
+
+def test_the_other_messages() -> None:
+    assert message_from_text('{"type": "typed", "text": "the cup"}') == Typed("the cup")
+    assert message_from_text('{"type": "microphone", "on": true}') == Microphone(True)
+    pointed = message_from_text('{"type": "ray", "head": [0, 0, 1.6], "wrist": [0, 0.5, 1.4]}')
+    assert pointed == Pointed((0.0, 0.0, 1.6), (0.0, 0.5, 1.4))
+
+
+@pytest.mark.parametrize(
+    ("text", "field"),
+    [
+        ("", ""),
+        ("[]", ""),
+        ('{"text": "a"}', "type"),
+        ('{"type": ["typed"], "text": "a"}', "type"),
+        ('{"type": "typed"}', "text"),
+        ('{"type": "typed", "text": 3}', "text"),
+        ('{"type": "typed", "text": "' + "a" * 301 + '"}', "text"),
+        ('{"type": "typed", "text": "a", "volume": 1}', "volume"),
+        ('{"type": "ray", "head": [0, 0, 1]}', "wrist"),
+        ('{"type": "ray", "head": [0, 0, 1], "wrist": [0, 0, 1]}', "wrist"),
+        ('{"type": "ray", "head": [0, 0, NaN], "wrist": [0, 0, 1]}', "head"),
+        ('{"type": "ray", "head": [0, 0, 1e999], "wrist": [0, 0, 1]}', "head"),
+        ('{"type": "microphone", "on": 1}', "on"),
+        ('{"type": "hello"}', "version"),
+        ('{"type": "hello", "version": true}', "version"),
+        ('{"type": "hello", "version": 1, "scene": "../../etc/passwd"}', "scene"),
+        ('{"type": "hello", "version": 1, "scene": {"path": "/etc/passwd"}}', "path"),
+        ('{"type": "hello", "version": 1, "planner": "best"}', "planner"),
+        ('{"type": "hello", "version": 1, "seed": -1}', "seed"),
+        ('{"type": "hello", "version": 1, "resume": 7}', "resume"),
+        ("[" * 100_000, ""),
+    ],
+)
+def test_what_is_no_message_is_refused_with_its_field(text: str, field: str) -> None:
+    with pytest.raises(InputError) as raised:
+        message_from_text(text)
+    assert raised.value.field == field
+
+
+def test_a_broken_table_is_answered_with_its_line() -> None:
+    with pytest.raises(InputError, match=r"^table:6: items\[0\].vocabulary"):
+        hello(scene={"toml": TABLE.replace('["mug"]', "[]")})
+    with pytest.raises(InputError, match=r"^table:3: broken TOML"):
+        hello(scene={"toml": "\nhead = [\n"})
+    many = TABLE + "".join(TABLE.split("1.6]")[1].replace("mug", f"mug{number}") for number in range(MOST_ITEMS))
+    with pytest.raises(InputError, match=f"found {MOST_ITEMS + 1}, expected at most {MOST_ITEMS}"):
+        hello(scene={"toml": many})
+
+
+def test_a_message_that_is_too_large_is_not_read() -> None:
+    with pytest.raises(InputError, match=str(LARGEST_MESSAGE)):
+        message_from_text('{"type": "typed", "text": "' + " " * LARGEST_MESSAGE + '"}')
+
+
+VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=8), inner, max_size=4),
+    max_leaves=8,
+)
+FIELDS = st.sampled_from(["text", "head", "wrist", "on", "version", "scene", "planner", "seed", "resume", "token", "x"])
+
+
+@given(
+    kind=st.sampled_from(["hello", "typed", "ray", "microphone"]), fields=st.dictionaries(FIELDS, VALUES, max_size=5)
+)
+def test_nothing_but_a_complaint_comes_of_nonsense(kind: str, fields: dict[str, Any]) -> None:
+    for text in (json.dumps({**fields, "type": kind}), json.dumps(fields)):
+        complaint = ""
+        try:
+            message_from_text(text)
+        except InputError as error:
+            complaint = str(error)
+        assert "\n" not in complaint

@@ -1,0 +1,278 @@
+"""The server as a page sees it: over HTTP and a WebSocket, with nothing replaced."""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from fetch_pomdp.adapters.web.hall import Config
+from fetch_pomdp.adapters.web.server import create_app
+
+HOME = "http://127.0.0.1:8000"
+ORIGIN = {"origin": HOME}
+SESSION = "ws://127.0.0.1:8000/session"  # the test client calls a relative address testserver
+HELLO = {"type": "hello", "version": 1, "planner": "threshold"}
+
+
+class Page:
+    """A page without a browser."""
+
+    def __init__(self, client: TestClient, **hello: Any) -> None:
+        self._context = client.websocket_connect(SESSION, headers=ORIGIN)
+        self.socket = self._context.__enter__()
+        self.send({**HELLO, **hello})
+
+    def send(self, message: Any) -> None:
+        self.socket.send_text(message if isinstance(message, str) else json.dumps(message))
+
+    def next(self, kind: str, **wanted: Any) -> dict[str, Any]:
+        """The next message of a kind, with certain fields."""
+        while True:
+            message: dict[str, Any] = json.loads(self.socket.receive_text())
+            if message["type"] == kind and wanted.items() <= message.items():
+                return message
+
+    def leave(self) -> None:
+        self._context.__exit__(None, None, None)
+
+
+class House:
+    """A server and the pages that are open."""
+
+    def __init__(self, client: TestClient) -> None:
+        self.client = client
+        self.pages: list[Page] = []
+
+    def page(self, **hello: Any) -> Page:
+        self.pages.append(Page(self.client, **hello))
+        return self.pages[-1]
+
+
+@contextmanager
+def house_of(config: Config) -> Iterator[House]:
+    with TestClient(create_app(config), base_url=HOME) as client:
+        house = House(client)
+        yield house
+        for page in house.pages:
+            page.leave()
+
+
+@pytest.fixture
+def house() -> Iterator[House]:
+    with house_of(Config()) as made:
+        yield made
+
+
+@pytest.fixture
+def client(house: House) -> TestClient:
+    return house.client
+
+
+def test_the_page_and_all_it_loads_are_in_the_package(client: TestClient) -> None:
+    page = client.get("/")
+    assert page.status_code == 200
+    assert "default-src 'self'" in page.headers["content-security-policy"]
+    for name in (
+        "app.js",
+        "style.css",
+        "texts.json",
+        "worklet.js",
+        "vendor/three.module.min.js",
+        "vendor/three.core.min.js",
+    ):
+        assert client.get(f"/{name}").status_code == 200, name
+    assert "http" not in page.text
+
+
+def test_both_languages_have_every_text(client: TestClient) -> None:
+    texts = client.get("/texts.json").json()
+    assert texts["en"].keys() == texts["de"].keys()
+    holes = {language: {key: sorted(_holes(text)) for key, text in all_.items()} for language, all_ in texts.items()}
+    assert holes["en"] == holes["de"]
+
+
+def _holes(text: str) -> list[str]:
+    return [part.partition("}")[0] for part in text.split("{")[1:]]
+
+
+@pytest.mark.parametrize(
+    "path", ["/../server.py", "/%2e%2e/server.py", "/..%2fserver.py", "//etc/passwd", "/voice/%2e%2e.wav"]
+)
+def test_no_other_file_is_served(client: TestClient, path: str) -> None:
+    answer = client.get(path)
+    assert answer.status_code == 404
+    assert str(Path(__file__).parents[3]) not in answer.text
+
+
+def test_a_name_that_was_made_to_lead_here_is_not_answered(client: TestClient) -> None:
+    assert client.get("/", headers={"host": "evil.example"}).status_code == 421
+
+
+@pytest.mark.parametrize("headers", [{}, {"origin": "http://evil.example"}, {"origin": HOME, "host": "evil.example"}])
+def test_a_page_of_another_site_may_not_talk_to_it(client: TestClient, headers: dict[str, str]) -> None:
+    with pytest.raises(WebSocketDisconnect), client.websocket_connect(SESSION, headers=headers):
+        pass
+
+
+def test_a_token_is_needed_where_there_is_one() -> None:
+    with house_of(Config(token="a secret of many letters")) as house:
+        page = house.page(token="a guess")
+        assert "token" in page.next("error")["message"]
+        with pytest.raises(WebSocketDisconnect):
+            page.socket.receive_text()
+        page = house.page(token="a secret of many letters")
+        assert page.next("welcome")["picked"] is None
+
+
+def test_a_request_a_question_an_answer_and_a_hand_over(house: House) -> None:
+    page = house.page()
+    welcome = page.next("welcome")
+    assert welcome["belief"]["marker-1"] == pytest.approx(1 / 6)
+    page.send({"type": "typed", "text": "hand me the green marker"})
+    shown = page.next("belief", provisional=True)  # at once, before the step has ended
+    assert shown["belief"]["marker-1"] > 0.3
+    asked = page.next("decided", action="point")
+    assert asked["item"] in ("marker-1", "marker-2")
+    assert asked["explanation"]["sentence"]
+    assert page.next("say")["text"] == "This one?"
+    page.next("action", action="point", outcome="done")
+    page.send({"type": "typed", "text": "yes"})
+    assert page.next("say")["text"] == "Here you are."
+    assert page.next("ended")["picked"] == asked["item"]
+
+
+def test_pointing_alone_begins_an_interaction(house: House) -> None:
+    page = house.page()
+    page.send({"type": "ray", "head": [0, 0, 1.6], "wrist": [0.0675, 0.576, 1.447]})
+    seen = page.next("observed")["observation"]
+    assert (seen["utterance"], seen["head"]) == (None, [0.0, 0.0, 1.6])
+    belief = page.next("belief", provisional=False)["belief"]
+    assert max(belief, key=belief.get) == "spoon-2"
+
+
+def test_who_may_not_look_into_the_robot_s_mind_is_told_nothing_of_it() -> None:
+    with house_of(Config(insight=False)) as house:
+        page = house.page()
+        assert page.next("welcome")["belief"] is None
+        page.send({"type": "typed", "text": "hand me the green marker"})
+        assert "belief" not in page.next("belief", provisional=True)
+        assert page.next("decided", action="point").keys() == {"type", "t", "action", "item"}
+
+
+def test_a_hand_over_can_be_stopped(house: House) -> None:
+    page = house.page(planner="never")
+    page.send({"type": "typed", "text": "green marker expo pen"})
+    item = page.next("decided", action="pick")["item"]
+    page.send({"type": "typed", "text": "stop"})
+    assert page.next("action", action="pick")["outcome"] == "stopped"
+    assert page.next("say")["text"] == "All right, not that one."
+    assert page.next("belief", provisional=False)["belief"][item] < 0.1
+
+
+def test_two_people_hear_nothing_of_each_other(house: House) -> None:
+    one, other = house.page(), house.page(scene="unambiguous")
+    sessions = {page.next("welcome")["session"] for page in (one, other)}
+    assert len(sessions) == 2
+    one.send({"type": "typed", "text": "marker"})
+    other.send({"type": "typed", "text": "spoon"})
+    for page, word, absent in ((one, "marker", "spoon"), (other, "spoon", "marker")):
+        heard = page.next("observed")
+        assert heard["observation"]["utterance"] == word
+        belief = page.next("belief", provisional=False)["belief"]
+        assert belief[f"{word}-1"] > 2 * belief[f"{absent}-1"]
+
+
+def test_who_comes_back_goes_on_where_they_were(tmp_path: Path) -> None:
+    with house_of(Config(data=tmp_path)) as house:
+        page = house.page()
+        secret = page.next("welcome")["resume"]
+        page.send({"type": "typed", "text": "green marker"})
+        asked = page.next("action", action="point")["item"]
+    with house_of(Config(data=tmp_path)) as house:  # another server
+        page = house.page(resume=secret, scene="unambiguous")
+        welcome = page.next("welcome")
+        assert (welcome["resumed"], welcome["scene_name"]) == (True, "ambiguous")
+        assert [event["type"] for event in welcome["past"]] == ["observed", "action"]
+        page.send({"type": "typed", "text": "no"})
+        other = ({"marker-1", "marker-2"} - {asked}).pop()
+        belief = page.next("belief", provisional=False, heard=["no"])["belief"]
+        assert max(belief, key=belief.get) == other
+        page.next("decided", item=other)
+
+
+def test_what_was_handed_over_is_known_to_who_comes_back_after_it(house: House) -> None:
+    page = house.page(planner="never")
+    secret = page.next("welcome")["resume"]
+    page.send({"type": "typed", "text": "green marker expo pen"})
+    picked = page.next("ended")["picked"]
+    assert house.page(resume=secret).next("welcome")["picked"] == picked
+
+
+def test_who_comes_back_elsewhere_takes_the_conversation_along(house: House) -> None:
+    first = house.page()
+    secret = first.next("welcome")["resume"]
+    second = house.page(resume=secret)
+    assert second.next("welcome")["resumed"]
+    with pytest.raises(WebSocketDisconnect) as left:
+        first.next("nothing")
+    assert left.value.code == 4001
+
+
+def test_more_people_than_there_is_room_for_are_told_so() -> None:
+    with house_of(Config(most_people=1)) as house:
+        page = house.page()
+        page.next("welcome")
+        assert "people" in house.page().next("error")["message"]
+
+
+def test_who_sends_too_much_is_not_heard_and_then_let_go() -> None:
+    with house_of(Config(messages=5.0)) as house:
+        page = house.page()
+        page.next("welcome")
+        for _ in range(230):
+            page.send({"type": "typed", "text": "marker"})
+        with pytest.raises(WebSocketDisconnect) as left:
+            page.next("nothing")
+        assert left.value.code == 1008
+
+
+def nonsense(rng: random.Random) -> str:
+    """A message that is none: a good one with something wrong, or no JSON at all."""
+    good = [
+        '{"type": "typed", "text": "marker"}',
+        '{"type": "ray", "head": [0, 0, 1.6], "wrist": [0, 0.5, 1.4]}',
+        '{"type": "hello", "version": 1}',
+        '{"type": "microphone", "on": false}',
+    ]
+    letters = list(rng.choice(good))
+    for _ in range(rng.randint(1, 4)):
+        letters.insert(
+            rng.randrange(len(letters)), rng.choice(['"', "{", "[", "\\", "9", "e", "\x00", "é", "null", "-"])
+        )
+        del letters[rng.randrange(len(letters))]
+    return "".join(letters) + rng.choice(["", "}", "]", " 1"])
+
+
+def test_ten_thousand_malformed_messages_and_nothing_dies() -> None:
+    rng, count = random.Random(0), 10_000
+    with house_of(Config(messages=1e9, sound=1e9)) as house:
+        witness, page = house.page(), house.page()
+        for each in (witness, page):
+            each.next("welcome")
+        for number in range(count):
+            if number % 10 == 9:
+                page.socket.send_bytes(rng.randbytes(rng.choice([1, 3, 33])))
+            else:
+                page.send(nonsense(rng))
+        page.send({"type": "typed", "text": "spoon"})
+        page.next("observed")
+        witness.send({"type": "typed", "text": "bowl"})
+        assert witness.next("observed")["observation"]["utterance"] == "bowl"

@@ -1,0 +1,166 @@
+"""Whole interactions in a real browser."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, expect
+
+from tests.e2e.conftest import PATIENCE, Person, Server
+
+pytestmark = pytest.mark.browser
+Visit = Callable[[], Person]
+MARKERS = {"marker-1", "marker-2"}
+
+
+def share(person: Person, item: str) -> float:
+    """The belief in an item (0 to 100), as its label shows it."""
+    return float(person.find(f"#items [data-item={item}] .percent").inner_text().removesuffix("%"))
+
+
+def test_a_request_a_question_an_answer_a_hand_over_and_once_more(visit: Visit) -> None:
+    person = visit()
+    person.say("hand me the marker")
+    asked = person.asked_about()
+    assert asked in MARKERS
+    expect(person.find("#bubble")).to_have_text("This one?")
+    expect(person.find("#spoken")).to_have_text("This one?")
+    person.find("[data-say=no]").click()
+    assert {person.got()} == MARKERS - {asked}
+    assert share(person, person.got()) > 50 > share(person, asked)
+    assert "worth" in person.find("#why").inner_text()
+    person.find("#again").click()
+    expect(person.find("#log li")).to_have_count(0)
+    assert share(person, "marker-1") == 17
+
+
+def test_the_keyboard_is_enough(visit: Visit) -> None:
+    person = visit()
+    label = person.find("#items [data-item=spoon-2]")
+    for _ in range(20):
+        person.page.keyboard.press("Tab")
+        if label.evaluate("element => element === document.activeElement"):
+            break
+    person.page.keyboard.press("Enter")
+    expect(person.find("#log")).to_contain_text("You pointed at the table", timeout=PATIENCE)
+    assert share(person, "spoon-2") > share(person, "bowl-1")
+    person.find("#say").focus()
+    person.page.keyboard.type("silver spoon")
+    person.page.keyboard.press("Enter")
+    expect(person.find("#log")).to_contain_text("silver spoon", timeout=PATIENCE)
+
+
+def test_pointing_with_the_mouse_moves_the_bars_at_once(visit: Visit) -> None:
+    person = visit()
+    place = person.find("#items [data-item=bowl-1]").bounding_box()
+    assert place is not None
+    person.page.mouse.move(place["x"] + place["width"] / 2, place["y"] - 12)
+    person.page.mouse.down()
+    expect(person.find("#items .provisional")).not_to_have_count(0, timeout=PATIENCE)
+    person.page.mouse.up()
+    expect(person.find("#log")).to_contain_text("You pointed", timeout=PATIENCE)
+    assert share(person, "bowl-1") > share(person, "spoon-2")
+
+
+def test_a_hand_over_that_is_stopped(visit: Visit) -> None:
+    person = visit()
+    person.find("#options").click()
+    person.find("#planner").select_option("never")
+    person.find("#options").click()
+    expect(person.find("#state")).to_have_text("The robot is listening.", timeout=PATIENCE)
+    person.say("the green expo marker pen")
+    expect(person.find("#items .about")).to_have_count(1, timeout=PATIENCE)
+    person.find("#stop").click()
+    expect(person.find("#log")).to_contain_text("and stopped", timeout=PATIENCE)
+    expect(person.find("#spoken")).to_have_text("All right, not that one.")
+
+
+def test_two_people_at_once_hear_nothing_of_each_other(visit: Visit) -> None:
+    one, other = visit(), visit()
+    one.say("the silver spoon")
+    other.say("the black bowl")
+    assert one.asked_about().startswith("spoon")
+    assert other.asked_about().startswith("bowl")
+    assert "bowl" not in one.log()
+    assert "spoon" not in other.log()
+    assert share(other, "spoon-1") < share(one, "spoon-1")
+
+
+def test_a_killed_server_loses_nothing_that_was_shown(visit: Visit, server: Server) -> None:
+    person = visit()
+    person.say("hand me the marker")
+    asked = person.asked_about()
+    before = person.log().splitlines()
+    server.kill()
+    (log,) = server.data.iterdir()
+    events = [json.loads(line) for line in log.read_text().splitlines()]
+    assert [event["item"] for event in events if event.get("action") == "point"] == [asked]
+    expect(person.find("#state")).to_contain_text("lost", timeout=PATIENCE)
+    server.start()
+    expect(person.find("#state")).to_have_text("The robot is listening.", timeout=PATIENCE)
+    assert [line.partition(" →")[0] for line in before] == [
+        line.partition(" →")[0] for line in person.log().splitlines()
+    ]
+    person.say("no")
+    assert {person.got()} == MARKERS - {asked}
+
+
+def test_a_table_is_edited_saved_and_opened(visit: Visit, tmp_path: Path) -> None:
+    person = visit()
+    person.find("#edit").click()
+    person.find("#rows fieldset").nth(0).locator("input").nth(1).fill("yellow, teapot")
+    with person.page.expect_download() as download:
+        person.find("#download").click()
+    path = tmp_path / "table.toml"
+    download.value.save_as(path)
+    path.write_text(path.read_text().replace('"bowl-1"', '"pot"'))
+    person.page.set_input_files("#upload", path)
+    expect(person.find("#items [data-item=pot]")).to_have_count(1, timeout=PATIENCE)
+    person.find("#edit").click()
+    person.say("teapot")
+    expect(person.find("#log")).to_contain_text("now most likely: pot", timeout=PATIENCE)
+    person.find("#edit").click()
+    path.write_text(path.read_text().replace("teapot", "yes"))
+    person.page.set_input_files("#upload", path)
+    expect(person.find("#editor-error")).to_contain_text("items[0].vocabulary", timeout=PATIENCE)
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_axe_finds_nothing(visit: Visit, language: str) -> None:
+    person = visit()
+    person.find("#options").click()
+    person.find("#language").select_option(language)
+    found = [Axe().run(person.page)]
+    person.find("#edit").click()
+    found.append(Axe().run(person.page))
+    person.find("#edit").click()
+    person.say("green marker")
+    expect(person.find("#answers")).to_be_visible(timeout=PATIENCE)
+    found.append(Axe().run(person.page))
+    person.find("[data-say=yes]").click()
+    expect(person.find("#end")).to_be_visible(timeout=PATIENCE)
+    found.append(Axe().run(person.page))
+    person.page.set_viewport_size({"width": 390, "height": 844})
+    found.append(Axe().run(person.page))
+    assert [result.generate_report() for result in found if result.violations_count] == []
+
+
+def test_a_microphone_is_heard(server: Server, chromium: Callable[..., Browser]) -> None:
+    """Chromium's microphone plays examples/marker.wav ("hand me the marker") over and over."""
+    sound = Path(__file__).parents[2] / "examples" / "marker.wav"
+    flags = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
+    with chromium(*flags, f"--use-file-for-fake-audio-capture={sound}") as browser:
+        person = Person(browser.new_context(permissions=["microphone"], locale="en"), server.address)
+        person.find("#options").click()
+        person.find("[name=ears][value=server]").check()
+        person.find("#hold").uncheck()
+        person.find("#options").click()
+        person.find("#microphone").click()
+        expect(person.find("#log")).to_contain_text("marker", timeout=PATIENCE)
+        assert share(person, "marker-1") > 30
+        person.find("#microphone").click()
+        assert person.errors == []
