@@ -24,10 +24,10 @@ coverage: .venv/tested
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest tests/core -m 'not slow' --cov=src/fetch_pomdp/core --cov-report=term --cov-fail-under=95
 
 # What takes long or needs more: whole interactions in Debian's Chromium (apt install chromium).
-check-all: test .venv/browser
+check-all: test
 	$(BIN)/pytest -m browser tests/e2e
 
-screenshots: .venv/browser
+screenshots: .venv/tested
 	$(BIN)/python docs/make_screenshots.py
 
 bench: .venv/tested
@@ -51,16 +51,11 @@ picture: .venv/installed
 	@$(BIN)/pip install -q --disable-pip-version-check -r requirements/test.txt
 	@touch $@
 
-.venv/browser: .venv/tested requirements/browser.txt
-	@$(BIN)/pip install -q --disable-pip-version-check -r requirements/browser.txt
-	@touch $@
-
 # Pins without registry addresses; needs uv.
 requirements:
 	uv pip compile pyproject.toml --universal --extra speech --extra serve --no-header --no-annotate -q -o requirements/run.txt
-	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --no-header --no-annotate -q -o requirements/test.txt
-	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group bench --no-header --no-annotate -q -o requirements/bench.txt
-	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group browser --no-header --no-annotate -q -o requirements/browser.txt
+	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group browser --no-header --no-annotate -q -o requirements/test.txt
+	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group browser --group bench --no-header --no-annotate -q -o requirements/bench.txt
 
 clean:
 	rm -rf .venv .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
