@@ -20,12 +20,13 @@ CORE_LIBRARIES = {"numpy", "numba"}
 ALLOWED: dict[str, tuple[set[str], set[str] | None]] = {
     "errors": (set(), set()),
     "checks": (GROUND, set()),
+    "extras": (GROUND, set()),
     "documents": (GROUND | {"checks"}, set()),
     "core": (GROUND | {"checks", "documents", "core"}, CORE_LIBRARIES),
     "files": (GROUND | {"checks", "documents", "core", "files"}, CORE_LIBRARIES),
-    "adapters": (GROUND | {"checks", "documents", "core", "files", "adapters"}, CORE_LIBRARIES),
-    "study": (GROUND | {"checks", "documents", "core", "files", "study"}, CORE_LIBRARIES),
-    "cli": (GROUND | {"checks", "documents", "core", "files", "adapters", "study", "cli"}, None),
+    "adapters": (GROUND | {"extras", "checks", "documents", "core", "files", "adapters"}, CORE_LIBRARIES),
+    "study": (GROUND | {"extras", "checks", "documents", "core", "files", "study"}, CORE_LIBRARIES),
+    "cli": (GROUND | {"extras", "checks", "documents", "core", "files", "adapters", "study", "cli"}, None),
     "__init__": (GROUND | {"core"}, set()),
     "__main__": ({"cli"}, set()),
 }

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from fetch_pomdp.adapters import extras
+from fetch_pomdp import extras
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
 from fetch_pomdp.core.ports import Outcome

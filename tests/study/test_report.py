@@ -13,8 +13,9 @@ import numpy as np
 import pandas
 import pytest
 
+from fetch_pomdp import extras
 from fetch_pomdp.errors import MissingExtraError, StudyError
-from fetch_pomdp.study import libraries, plots
+from fetch_pomdp.study import plots
 from fetch_pomdp.study.analysis.cells import cells
 from fetch_pomdp.study.analysis.plan import Plan
 from fetch_pomdp.study.analysis.trials import checked
@@ -147,7 +148,7 @@ def test_a_folder_that_cannot_be_is_one_clear_line(tmp_path: Path) -> None:
 
 def test_a_missing_library_is_named_with_the_line_that_installs_it() -> None:
     with pytest.raises(MissingExtraError, match=r'pip install "fetch-pomdp\[study\]"'):
-        libraries.load("no_such_library")
+        extras.load("no_such_library")
 
 
 def test_the_ellipse_is_one_standard_deviation_of_the_gaussian() -> None:

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeVar, get_args
 
 from fetch_pomdp.checks import shown
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.libraries import load
+from fetch_pomdp.extras import load
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -45,7 +45,7 @@ class Crew:
 
         Ray's backend gives nothing back before all it was given is done: it gets a wave of tasks at a time.
         """
-        joblib = load("joblib")
+        joblib = load("joblib", "study")
         count = self.workers or joblib.cpu_count()
         with contextlib.ExitStack() as stack:
             stack.enter_context(self._config(joblib, count, stack))

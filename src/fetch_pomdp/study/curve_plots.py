@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.analysis.trials import Table
 from fetch_pomdp.study.curves import Curve
-from fetch_pomdp.study.libraries import load
 from fetch_pomdp.study.plots import COLOURS, MARKS, Figure, legend, styled
 
 MEASURES = (("accuracy", "right item (%)", 100.0), ("time", "time (s)", 1.0))
@@ -24,7 +24,7 @@ def curve(table: Table, of: Curve) -> Figure:
     layouts, conditions = list(own["layout"].unique()), list(own["condition"].unique())
     rows = [(layout, *measure) for layout in layouts for measure in MEASURES]
     size = (2.4 * len(conditions) + 0.8, 1.9 * len(rows) + 0.7)
-    figure = load("matplotlib.figure").Figure(figsize=size, layout="constrained")
+    figure = load("matplotlib.figure", "study").Figure(figsize=size, layout="constrained")
     axes = figure.subplots(len(rows), len(conditions), squeeze=False, sharex=True, sharey="row")
     for row, (layout, measure, unit, scale) in enumerate(rows):
         for column, condition in enumerate(conditions):
@@ -59,7 +59,7 @@ def plane(table: Table, chosen: str | None, names: Sequence[str]) -> Figure:
     drawn with 95 % intervals. The line joins the settings that no other beats in both.
     """
     layouts = list(table["layout"].unique())
-    figure = load("matplotlib.figure").Figure(figsize=(4.6 * len(layouts), 3.8), layout="constrained")
+    figure = load("matplotlib.figure", "study").Figure(figsize=(4.6 * len(layouts), 3.8), layout="constrained")
     axes = figure.subplots(1, len(layouts), squeeze=False)[0]
     for axis, layout in zip(axes, layouts, strict=True):
         here = table[table["layout"] == layout]

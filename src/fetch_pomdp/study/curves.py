@@ -17,6 +17,7 @@ from typing import Any
 from fetch_pomdp.core.model import LARGEST_SIGMA
 from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.errors import StudyError
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.alike import alike
 from fetch_pomdp.study.analysis.cells import cells
 from fetch_pomdp.study.analysis.plan import Plan
@@ -24,7 +25,6 @@ from fetch_pomdp.study.analysis.trials import Table, checked
 from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.design import PAPER, Paradigm, Study
 from fetch_pomdp.study.experiment import run
-from fetch_pomdp.study.libraries import load
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.table import read_table
 
@@ -199,4 +199,4 @@ def trace(chosen: Sequence[Point], folder: Path, crew: Crew, told: Callable[[int
         for cell in cells(checked(read_table(folder / point.folder)), Plan()):
             place = {"curve": point.curve.name, "condition": point.condition, "value": point.value}
             rows.append({**place, **dataclasses.asdict(cell)})
-    return load("pandas").DataFrame(rows)
+    return load("pandas", "study").DataFrame(rows)

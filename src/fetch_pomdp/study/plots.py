@@ -13,9 +13,9 @@ from typing import Any, ParamSpec, TypeAlias
 
 import numpy as np
 
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.analysis.cells import Cell
 from fetch_pomdp.study.analysis.trials import Table, Values, means
-from fetch_pomdp.study.libraries import load
 
 P = ParamSpec("P")
 Figure: TypeAlias = Any  # a matplotlib Figure; a third-party type cannot be named without importing it
@@ -36,7 +36,7 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 
     @wraps(draw)
     def drawn(*args: P.args, **kwargs: P.kwargs) -> Figure:
-        matplotlib = load("matplotlib")
+        matplotlib = load("matplotlib", "study")
         with matplotlib.rc_context():
             matplotlib.rcdefaults()
             matplotlib.rcParams.update(STYLE)
@@ -133,7 +133,7 @@ def survival(table: Table, cells: Sequence[Cell]) -> Figure:
     """
     layouts, paradigms = _names(cells)
     figure, axes = _axes(len(layouts), "Interactions that still went on")
-    curve_of = load("statsmodels.duration.survfunc").SurvfuncRight
+    curve_of = load("statsmodels.duration.survfunc", "study").SurvfuncRight
     for axis, layout in zip(axes, layouts, strict=True):
         for place, paradigm in enumerate(paradigms):
             trials = table[(table["layout"] == layout) & (table["paradigm"] == paradigm)]
@@ -183,7 +183,7 @@ def svg(figure: Figure) -> str:
 
 
 def _axes(count: int, title: str) -> tuple[Figure, Sequence[Any]]:
-    figure = load("matplotlib.figure").Figure(figsize=(max(4.8, 4.2 * count), 3.4), layout="constrained")
+    figure = load("matplotlib.figure", "study").Figure(figsize=(max(4.8, 4.2 * count), 3.4), layout="constrained")
     figure.suptitle(title)
     return figure, list(figure.subplots(1, count, squeeze=False)[0])
 

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from fetch_pomdp.core.model import Rewards
 from fetch_pomdp.core.planners.catalogue import DEFAULT
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.analysis.cells import cells
 from fetch_pomdp.study.analysis.comparisons import gains
 from fetch_pomdp.study.analysis.hypotheses import Claims, Hypothesis, judged
@@ -25,7 +26,6 @@ from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.curves import sized
 from fetch_pomdp.study.design import PAPER, Paradigm, Study
 from fetch_pomdp.study.experiment import run
-from fetch_pomdp.study.libraries import load
 from fetch_pomdp.study.table import read_table
 
 RUNS = "runs"
@@ -128,12 +128,12 @@ def play(chosen: Sequence[Played], folder: Path, crew: Crew, told: Callable[[int
         run(one.study, place, crew, told=lambda count, before=done: told(before + count))  # type: ignore[misc]
         done += one.study.size
         tables.append(read_table(place))
-    return checked(load("pandas").concat(tables, ignore_index=True))
+    return checked(load("pandas", "study").concat(tables, ignore_index=True))
 
 
 def cell_table(trials: Table) -> Table:
     """Return the cells of a checked table as a DataFrame, with 95 % intervals."""
-    return load("pandas").DataFrame([dataclasses.asdict(cell) for cell in cells(trials, Plan())])
+    return load("pandas", "study").DataFrame([dataclasses.asdict(cell) for cell in cells(trials, Plan())])
 
 
 def everywhere(trials: Table, name: str) -> float:
@@ -172,7 +172,7 @@ def _gain(place: Table, name: str, measure: str, margin: float = 0.0) -> float:
     people = gains(differences(place, name, SYSTEM, measure), measure).people + margin
     if alike(people):
         return math.copysign(math.inf, people[0]) if people[0] else 0.0
-    return float(load("scipy.stats").ttest_1samp(people, 0.0).statistic)
+    return float(load("scipy.stats", "study").ttest_1samp(people, 0.0).statistic)
 
 
 def judge(name: str) -> Plan:

@@ -11,7 +11,7 @@ from typing import Any
 from fetch_pomdp import checks
 from fetch_pomdp.documents import Document
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.libraries import load
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.record import COLUMNS, NAME, read_trials, trial_from_json
 from fetch_pomdp.study.trial import Trial
 
@@ -33,7 +33,7 @@ ENDINGS = (".jsonl", ".csv", ".parquet")
 
 def to_frame(trials: Iterable[Trial]) -> Any:
     """Return trials as a pandas DataFrame: a row a trial, the fields of Trial as columns (`TYPES`)."""
-    pandas = load("pandas")
+    pandas = load("pandas", "study")
     rows = [tuple(getattr(trial, name) for name in COLUMNS) for trial in trials]
     return pandas.DataFrame(rows, columns=list(COLUMNS)).astype(TYPES)
 
@@ -59,7 +59,7 @@ def read_table(path: str | Path) -> Any:
     """
     source = Path(path)
     source = source / NAME if source.is_dir() else source
-    pandas = load("pandas")
+    pandas = load("pandas", "study")
     ending = _ending(source)
     try:
         if ending == ".parquet":
@@ -121,7 +121,7 @@ def _write_csv(frames: Iterator[Any], target: Path) -> None:
 
 
 def _write_parquet(frames: Iterator[Any], target: Path) -> None:
-    arrow, parquet = load("pyarrow"), load("pyarrow.parquet")
+    arrow, parquet = load("pyarrow", "study"), load("pyarrow.parquet", "study")
     schema = arrow.Schema.from_pandas(to_frame([]), preserve_index=False)
     with parquet.ParquetWriter(target, schema) as writer:
         for frame in frames:

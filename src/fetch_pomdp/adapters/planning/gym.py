@@ -17,7 +17,6 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from fetch_pomdp import checks
-from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.discrete import all_actions
@@ -30,6 +29,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import MOST_STEPS
 from fetch_pomdp.core.words import POSITIVE
 from fetch_pomdp.errors import ActionError, ModelError, SceneError
+from fetch_pomdp.extras import load
 
 gymnasium = load("gymnasium", "gym")
 

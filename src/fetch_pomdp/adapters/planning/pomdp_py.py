@@ -17,7 +17,6 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.random import Generator
 
-from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core import generative
 from fetch_pomdp.core import observation as observations
@@ -29,6 +28,7 @@ from fetch_pomdp.core.language import answer_rate
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import ActionError, ModelError, ObservationError
+from fetch_pomdp.extras import load
 
 pomdp_py = load("pomdp_py", "pomdp-py")
 

@@ -14,9 +14,9 @@ from typing import Any, BinaryIO, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.adapters.speech import wav
 from fetch_pomdp.errors import AudioError, MissingExtraError
+from fetch_pomdp.extras import load
 
 RATE = 16_000  # Hz, of every Sound
 BLOCK = 0.02  # s read from a pipe or a microphone at a time

@@ -12,13 +12,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.adapters.speech.audio import Samples, Sound
 from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
 from fetch_pomdp.adapters.speech.denoise import denoise
 from fetch_pomdp.adapters.speech.pronunciation import pronounce
 from fetch_pomdp.adapters.speech.utterances import Utterance, Utterances
 from fetch_pomdp.core.ports import Word
+from fetch_pomdp.extras import load
 
 logger = logging.getLogger(__name__)
 

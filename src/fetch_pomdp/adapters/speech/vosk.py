@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Self
 
-from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.adapters.speech.audio import RATE
 from fetch_pomdp.adapters.speech.bigram import every_word
 from fetch_pomdp.adapters.speech.utterances import Utterance
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
+from fetch_pomdp.extras import load
 
 UNKNOWN = "[unk]"  # how Vosk spells what is none of the words
 CHUNK = RATE // 5  # samples; Vosk may find an end after each, and then gives what came before it

@@ -21,12 +21,12 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.adapters.speech.sphinx import SphinxTranscriber
 from fetch_pomdp.adapters.speech.transcriber import Transcriber
 from fetch_pomdp.adapters.speech.utterances import Utterance
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
+from fetch_pomdp.extras import load
 
 PATIENCE = 20.0  # s for an answer, loading included; a process that takes longer is killed
 NAME = "speech recogniser"

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from importlib.resources import files
 from typing import Any
 
-from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.adapters.web.ears import hearing_if_installed, voice_if_installed
 from fetch_pomdp.adapters.web.gate import Gate
 from fetch_pomdp.adapters.web.hall import Config, Hall
@@ -19,6 +18,7 @@ from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import InputError
+from fetch_pomdp.extras import load
 
 EXTRA = "serve"
 HEADERS = {

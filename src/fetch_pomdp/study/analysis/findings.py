@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.analysis.cells import Cell, cells
 from fetch_pomdp.study.analysis.comparisons import Comparison, comparisons
 from fetch_pomdp.study.analysis.hypotheses import Clause, Hypothesis, hypotheses
 from fetch_pomdp.study.analysis.plan import Plan
 from fetch_pomdp.study.analysis.power import Needed, needed
 from fetch_pomdp.study.analysis.trials import Table, checked
-from fetch_pomdp.study.libraries import load
 
 EFFECTS = (1.0, 0.5)  # parts of the observed advantage that a planned study may assume
 
@@ -62,11 +62,11 @@ def tables(found: Findings) -> Mapping[str, Table]:
     return {
         "cells": _frame(Cell, [asdict(cell) for cell in found.cells]),
         "comparisons": _frame(Comparison, [asdict(row) for row in found.comparisons]),
-        "clauses": load("pandas")
+        "clauses": load("pandas", "study")
         .DataFrame([_flat(clause) for clause in clauses])
         .astype({"p": float, "p_holm": float}),
         "people": means[["time", "correct", "questions", "waits"]].mean().rename(columns={"correct": "accuracy"}),
-        "power": load("pandas").DataFrame(_curves(found.sizings), columns=POWER),
+        "power": load("pandas", "study").DataFrame(_curves(found.sizings), columns=POWER),
     }
 
 
@@ -90,4 +90,4 @@ def _flat(clause: Clause) -> dict[str, Any]:
 def _frame(kind: type, rows: Sequence[dict[str, Any]]) -> Table:
     """Return rows of a dataclass as a DataFrame whose numbers are numbers even where all of them are missing."""
     numbers = {field.name: float for field in fields(kind) if "float" in str(field.type)}
-    return load("pandas").DataFrame(rows, columns=[field.name for field in fields(kind)]).astype(numbers)
+    return load("pandas", "study").DataFrame(rows, columns=[field.name for field in fields(kind)]).astype(numbers)

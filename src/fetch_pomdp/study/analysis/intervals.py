@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.analysis.trials import Values, alike
-from fetch_pomdp.study.libraries import load
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ def of_mean(people: Values, level: float) -> Interval:
     mean = float(people.mean())
     if len(people) < 2 or alike(people):
         return Interval(mean, None, None)
-    ends = load("scipy.stats").ttest_1samp(people, 0.0).confidence_interval(1 - level)
+    ends = load("scipy.stats", "study").ttest_1samp(people, 0.0).confidence_interval(1 - level)
     return Interval(mean, float(ends.low), float(ends.high))
 
 
@@ -45,12 +45,12 @@ def of_share(people: Values, trials: int, level: float) -> Interval:
     share = float(people.mean())
     if len(people) < 2:
         return Interval(share, None, None)
-    stats = load("scipy.stats")
+    stats = load("scipy.stats", "study")
     variance = float(people.var(ddof=1)) / len(people)
     effective = float(trials)
     if not alike(people):
         few, many = (stats.t.ppf(1 - level / 2, count - 1) for count in (len(people), trials))
         effective = min(effective, share * (1 - share) / variance * (many / few) ** 2)
-    confint = load("statsmodels.stats.proportion").proportion_confint
+    confint = load("statsmodels.stats.proportion", "study").proportion_confint
     low, high = confint(share * effective, effective, alpha=level, method="beta")
     return Interval(share, 0.0 if math.isnan(low) else float(low), 1.0 if math.isnan(high) else float(high))

@@ -13,12 +13,12 @@ from functools import partial
 import numpy as np
 from numpy.random import Generator, default_rng
 
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.analysis.comparisons import gains
 from fetch_pomdp.study.analysis.hypotheses import Clause
 from fetch_pomdp.study.analysis.plan import Plan
 from fetch_pomdp.study.analysis.signed_rank import no_worse_in, superior_in
 from fetch_pomdp.study.analysis.trials import Table, Values, alike, differences
-from fetch_pomdp.study.libraries import load
 
 FEWEST = 6  # below, signed ranks cannot reach one-sided 2.5 %, whatever happens
 SIZES = (6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64, 80, 96, 128, 160, 192, 256, 384, 512, 768, 1024)
@@ -86,7 +86,7 @@ def _curve(people: Values, test: Tested, plan: Plan, rng: Generator) -> tuple[Ch
 def _chance(people: Values, size: int, test: Tested, plan: Plan, rng: Generator) -> Chance:
     studies = people[rng.integers(len(people), size=(plan.draws, size))]
     shown = int(np.sum(test(studies) <= plan.level / 2))
-    low, high = load("statsmodels.stats.proportion").proportion_confint(shown, plan.draws, method="wilson")
+    low, high = load("statsmodels.stats.proportion", "study").proportion_confint(shown, plan.draws, method="wilson")
     return Chance(size, shown / plan.draws, float(low), float(high))
 
 

@@ -9,8 +9,8 @@ from typing import Literal
 
 import numpy as np
 
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.analysis.trials import DIGITS, Values, alike
-from fetch_pomdp.study.libraries import load
 
 EXACT = 13  # differences whose signs are all tried: 8,192 patterns
 Alternative = Literal["two-sided", "greater", "less"]
@@ -33,7 +33,7 @@ def signed_rank(values: Values, alternative: Alternative = "two-sided") -> Signe
     kept = rounded[rounded != 0]
     if len(kept) == 0:
         return Signed(None, None)
-    stats = load("scipy.stats")
+    stats = load("scipy.stats", "study")
     ranks = stats.rankdata(np.abs(kept)) * np.sign(kept)
     p = _exact(ranks, alternative) if 1 < len(kept) <= EXACT else stats.wilcoxon(kept, alternative=alternative).pvalue
     return Signed(float(p), float(ranks.sum() / np.abs(ranks).sum()))
@@ -41,7 +41,7 @@ def signed_rank(values: Values, alternative: Alternative = "two-sided") -> Signe
 
 def _exact(ranks: Values, alternative: Alternative) -> float:
     """Return p over all signs of the ranks; SciPy's own test does the same one sign pattern at a time."""
-    test = load("scipy.stats").permutation_test
+    test = load("scipy.stats", "study").permutation_test
     found = test(
         (ranks,), np.sum, permutation_type="samples", vectorized=True, n_resamples=np.inf, alternative=alternative
     )
@@ -55,7 +55,7 @@ def no_worse(gains: Values, margin: float) -> float | None:
     """
     if len(gains) < 2 or alike(gains):
         return None
-    return float(load("scipy.stats").ttest_1samp(gains, -margin, alternative="greater").pvalue)
+    return float(load("scipy.stats", "study").ttest_1samp(gains, -margin, alternative="greater").pvalue)
 
 
 def no_worse_by_ranks(gains: Values, margin: float) -> float | None:
@@ -68,7 +68,7 @@ def holm(raw: Sequence[float | None]) -> list[float | None]:
     made = [p for p in raw if p is not None]
     if not made:
         return list(raw)
-    corrected = iter(load("statsmodels.stats.multitest").multipletests(made, method="holm")[1])
+    corrected = iter(load("statsmodels.stats.multitest", "study").multipletests(made, method="holm")[1])
     return [None if p is None else float(next(corrected)) for p in raw]
 
 
@@ -77,7 +77,7 @@ def superior_in(studies: Values) -> Values:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # a study of zeros only: its p becomes 1 below
         p = (
-            load("scipy.stats")
+            load("scipy.stats", "study")
             .wilcoxon(np.round(studies, DIGITS), axis=1, alternative="greater", method="asymptotic")
             .pvalue
         )
@@ -88,5 +88,5 @@ def no_worse_in(studies: Values, margin: float) -> Values:
     """Return one-sided p of `no_worse` for many studies at once; one whose persons are all alike shows nothing."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        p = load("scipy.stats").ttest_1samp(studies, -margin, axis=1, alternative="greater").pvalue
+        p = load("scipy.stats", "study").ttest_1samp(studies, -margin, axis=1, alternative="greater").pvalue
     return np.where(np.ptp(studies, axis=1) < 10.0**-DIGITS, 1.0, np.nan_to_num(p, nan=1.0))

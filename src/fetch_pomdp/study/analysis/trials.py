@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fetch_pomdp.checks import required, shown
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.libraries import load
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.trial import Trial
 
 Table: TypeAlias = Any  # a pandas DataFrame; a third-party type cannot be named without importing it
@@ -43,7 +43,7 @@ def checked(table: Table) -> Table:
 
 
 def _numbers(table: Table, name: str, expected: str) -> None:
-    found = load("pandas").to_numeric(table[name], errors="coerce")
+    found = load("pandas", "study").to_numeric(table[name], errors="coerce")
     _refuse(table, name, ~(np.isfinite(found) & (found >= 0)), expected)
 
 

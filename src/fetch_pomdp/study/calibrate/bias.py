@@ -15,9 +15,9 @@ from fetch_pomdp.core import gesture
 from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.calibrate.estimate import LEVEL
 from fetch_pomdp.study.calibrate.steps import Interaction, steps_of
-from fetch_pomdp.study.libraries import load
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -88,5 +88,5 @@ def _mean(name: str, errors: Vector, piece: Integers, strata: Integers) -> Offse
     apart = (sums - (np.bincount(strata, weights=sums) / sizes)[strata]) ** 2
     spread = math.sqrt(float((apart * (sizes / np.maximum(sizes - 1, 1))[strata]).sum())) / len(errors)
     free = len(strata) - len(sizes)
-    reach = spread * float(load("scipy.stats").t.ppf((1.0 + LEVEL) / 2.0, free))
+    reach = spread * float(load("scipy.stats", "study").t.ppf((1.0 + LEVEL) / 2.0, free))
     return Offset(name, mean, mean - reach, mean + reach, len(errors))

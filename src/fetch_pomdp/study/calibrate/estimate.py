@@ -16,8 +16,8 @@ from typing import Literal
 import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, Vector
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.calibrate.scales import Scale
-from fetch_pomdp.study.libraries import load
 
 LEVEL = 0.9
 FALL = 1.35  # of the log-likelihood towards an end of a line, half the 90 % quantile of chi-squared: less tells nothing
@@ -108,14 +108,14 @@ class _Path:
 
 def _drop(inflation: float, free: int) -> float:
     """Return how far the log-posterior may fall within an interval. free: degrees of freedom of the inflation."""
-    stats = load("scipy.stats")
+    stats = load("scipy.stats", "study")
     quantile = float(stats.t.ppf((1.0 + LEVEL) / 2.0, free))
     return 0.5 * inflation * quantile**2
 
 
 def _mode(scales: Sequence[Scale], log_posterior: Callable[[Vector], float]) -> Vector:
     """Return the places of the largest log-posterior: the best of a coarse search of each line, then uphill."""
-    optimize = load("scipy.optimize")
+    optimize = load("scipy.optimize", "study")
     best = np.array([scale.centre_place for scale in scales])
     for index, scale in enumerate(scales):
         tried = [_at(best, index, place) for place in np.linspace(*scale.line, GRID)[1:-1].tolist()]
@@ -180,7 +180,7 @@ def _robust_variance(
 
 def _limit(log_posterior: Callable[[Vector], float], path: _Path, side: int, drop: float) -> float:
     """Return the place of an interval's end, or of the line's where the log-posterior does not fall so far."""
-    optimize = load("scipy.optimize")
+    optimize = load("scipy.optimize", "study")
     sign, end, begin = (1, -1)[side == 0], path.line[side], path.begin
     floor = log_posterior(path.at(begin)) - drop
 

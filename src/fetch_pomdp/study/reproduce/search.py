@@ -11,8 +11,8 @@ import numpy as np
 from fetch_pomdp.checks import within
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.errors import StudyError
+from fetch_pomdp.extras import load
 from fetch_pomdp.study.crew import Crew
-from fetch_pomdp.study.libraries import load
 from fetch_pomdp.study.reproduce.cells import cell, loss, reduced, residuals, simulate
 from fetch_pomdp.study.reproduce.free import OVERHEAD, Free, changed
 from fetch_pomdp.study.reproduce.targets import Targets
@@ -91,7 +91,7 @@ def fit(
         raise StudyError("found none besides the overhead, expected one or more", field="free")
     within(budget, 8, 1e6, "budget", "a whole number from 8", StudyError)
     counted = _Counted(objective, told)
-    explored = load("scipy.stats.qmc").LatinHypercube(size, rng=seed).random(max(1, budget // 4 - 1))
+    explored = load("scipy.stats.qmc", "study").LatinHypercube(size, rng=seed).random(max(1, budget // 4 - 1))
     points = [objective.start, *(1.0 + explored)]
     best = min(points, key=lambda point: loss(counted.residuals(point, COARSE)))
     for people, share in ((COARSE, budget // 2), (FINE, budget // 4)):
@@ -121,7 +121,7 @@ class _Counted:
 
 def _descended(counted: _Counted, start: Vector, people: int, steps: int) -> Vector:
     """Return where least squares get in so many steps, each with derivatives."""
-    found = load("scipy.optimize").least_squares(
+    found = load("scipy.optimize", "study").least_squares(
         counted.residuals, np.clip(start, 1.0 + 1e-6, 2.0 - 1e-6), args=(people,), bounds=(1.0, 2.0),
         diff_step=STEP, ftol=GAIN, max_nfev=steps + 1,
     )  # fmt: skip

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from fetch_pomdp.adapters.extras import load
 from fetch_pomdp.adapters.speech.audio import RATE, Samples
+from fetch_pomdp.extras import load
 
 MODEL = Path(__file__).with_name("silero_vad_16k.onnx")
 CHUNK, CONTEXT = 512, 64  # samples the model takes, and of those before them
