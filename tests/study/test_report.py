@@ -148,7 +148,7 @@ def test_a_folder_that_cannot_be_is_one_clear_line(tmp_path: Path) -> None:
 
 def test_a_missing_library_is_named_with_the_line_that_installs_it() -> None:
     with pytest.raises(MissingExtraError, match=r'pip install "fetch-pomdp\[study\]"'):
-        extras.load("no_such_library")
+        extras.load("no_such_library", "study")
 
 
 def test_the_ellipse_is_one_standard_deviation_of_the_gaussian() -> None:
