@@ -10,6 +10,7 @@ demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
 	@if [ -t 0 ]; then printf '\nNow you: the robot is listening.\n'; $(BIN)/fetch-pomdp fetch ambiguous; \
 	else echo 'On a terminal your turn comes now: .venv/bin/fetch-pomdp fetch ambiguous'; fi
+	@echo 'In a browser: .venv/bin/fetch-pomdp serve'
 
 test: .venv/tested lint coverage
 	$(BIN)/pytest
