@@ -21,7 +21,8 @@ P = ParamSpec("P")
 Figure: TypeAlias = Any  # a matplotlib Figure; a third-party type cannot be named without importing it
 
 INK = "#767676"  # contrast 4.5 to white and 4.6 to black
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#999933", "#882255")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#999933", "#882255", "#404040", "#AA4499",
+           "#44AA99", "#DDCC77")  # fmt: skip
 MARKS = ("s", "^", "o", "D", "v", "P", "X", "*")
 STYLE = {
     "axes.edgecolor": INK, "axes.labelcolor": INK, "axes.spines.right": False, "axes.spines.top": False,
