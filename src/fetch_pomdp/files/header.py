@@ -15,6 +15,7 @@ from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import EventError, InputError, SceneError
 from fetch_pomdp.files.events import item_index
+from fetch_pomdp.files.models import changed
 
 VERSION = 2
 READ = (1, VERSION)
@@ -57,7 +58,7 @@ def header_from_json(data: Mapping[str, Any]) -> Header:
         raise EventError(f"found {shown(version)}, expected {' or '.join(map(str, READ))}", field="version")
     checks.known(data, FIELDS if version == 1 else FIELDS + STUDY_FIELDS, "field", EventError)
     checks.required(data, ("scene",), EventError)
-    scene = _with_changes(_scene(data["scene"]), data)
+    scene = changed(_scene(data["scene"]), data, EventError)
     planner, parameters = _planner(data.get("planner", DEFAULT))
     target = data.get("target")
     if target is not None:
@@ -104,17 +105,6 @@ def _scene(value: object) -> Scene:
         return Scene.from_mapping(data)
     except InputError as error:
         raise error.within("scene") from None
-
-
-def _with_changes(scene: Scene, data: Mapping[str, Any]) -> Scene:
-    try:
-        section = "model"
-        model = scene.model.with_changes(checks.mapping(data.get("model", {}), "", EventError))
-        section = "rewards"
-        rewards = scene.rewards.with_changes(checks.mapping(data.get("rewards", {}), "", EventError))
-    except InputError as error:
-        raise error.within(section) from None
-    return dataclasses.replace(scene, model=model, rewards=rewards)
 
 
 def _planner(value: object) -> tuple[str, dict[str, Any]]:

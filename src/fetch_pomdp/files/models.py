@@ -19,18 +19,26 @@ def with_model(scene: Scene, path: str | Path) -> Scene:
     Raises ModelError, with file, line and field, for what is no model.
     """
 
-    def changed(data: Mapping[str, Any]) -> Scene:
+    def read(data: Mapping[str, Any]) -> Scene:
         checks.known(data, ("model", "rewards"), "table", ModelError)
-        try:
-            section = "model"
-            model = scene.model.with_changes(checks.mapping(data.get("model", {}), "", ModelError))
-            section = "rewards"
-            rewards = scene.rewards.with_changes(checks.mapping(data.get("rewards", {}), "", ModelError))
-        except InputError as error:
-            raise error.within(section) from None
-        return dataclasses.replace(scene, model=model, rewards=rewards)
+        return changed(scene, data, ModelError)
 
-    return read_toml(path, ModelError).build(changed)
+    return read_toml(path, ModelError).build(read)
+
+
+def changed(scene: Scene, data: Mapping[str, Any], kind: type[InputError]) -> Scene:
+    """Return a scene with the parameters under `model` and `rewards` in data changed.
+
+    Raises ModelError, or `kind` for what is no table, with the field.
+    """
+    try:
+        section = "model"
+        model = scene.model.with_changes(checks.mapping(data.get("model", {}), "", kind))
+        section = "rewards"
+        rewards = scene.rewards.with_changes(checks.mapping(data.get("rewards", {}), "", kind))
+    except InputError as error:
+        raise error.within(section) from None
+    return dataclasses.replace(scene, model=model, rewards=rewards)
 
 
 def write_model(path: str | Path, comments: Sequence[str], values: Mapping[str, tuple[float, str]]) -> None:

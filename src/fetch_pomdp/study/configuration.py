@@ -15,6 +15,7 @@ from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError, StudyError
+from fetch_pomdp.files.models import changed
 from fetch_pomdp.study.clock import Clock
 from fetch_pomdp.study.design import Paradigm, Study
 from fetch_pomdp.study.people.parameters import People
@@ -39,7 +40,7 @@ def study_from_mapping(data: Mapping[str, Any], folder: Path) -> Study:
     checks.known(data, FIELDS, "field", StudyError)
     fields: dict[str, Any] = {name: data[name] for name in PLAIN if name in data}
     layouts = _layouts(data["layouts"], folder) if "layouts" in data else Study().layouts
-    fields["layouts"] = {name: _changed(scene, data) for name, scene in layouts.items()}
+    fields["layouts"] = {name: changed(scene, data, StudyError) for name, scene in layouts.items()}
     if "paradigms" in data:
         table = checks.mapping(data["paradigms"], "paradigms", StudyError)
         fields["paradigms"] = {name: _paradigm(value, f"paradigms.{name}") for name, value in table.items()}
@@ -63,17 +64,6 @@ def _layouts(value: object, folder: Path) -> dict[str, Scene]:
         source = given if given in LAYOUTS else folder / given
         layouts[name] = _elsewhere("layouts", lambda source=source: Scene.load(source))  # type: ignore[misc]
     return layouts
-
-
-def _changed(scene: Scene, data: Mapping[str, Any]) -> Scene:
-    section = "model"
-    try:
-        model = scene.model.with_changes(checks.mapping(data.get("model", {}), "", StudyError))
-        section = "rewards"
-        rewards = scene.rewards.with_changes(checks.mapping(data.get("rewards", {}), "", StudyError))
-    except InputError as error:
-        raise error.within(section) from None
-    return dataclasses.replace(scene, model=model, rewards=rewards)
 
 
 def _paradigm(value: object, path: str) -> Paradigm:

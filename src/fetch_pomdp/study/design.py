@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -16,6 +15,7 @@ from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError, StudyError
 from fetch_pomdp.files.header import Header
+from fetch_pomdp.files.models import changed
 from fetch_pomdp.study.clock import Clock
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.trial import Assignment
@@ -106,14 +106,10 @@ class Study:
     def scene(self, layout: str, paradigm: str) -> Scene:
         """Return the table of a layout, with the model and rewards of a paradigm."""
         table, robot = self.layouts[layout], self.paradigms[paradigm]
-        section = "model"
         try:
-            model = table.model.with_changes(robot.model)
-            section = "rewards"
-            rewards = table.rewards.with_changes(robot.rewards)
+            return changed(table, {"model": robot.model, "rewards": robot.rewards}, StudyError)
         except InputError as error:
-            raise error.within(section).within(f"paradigms.{paradigm}") from None
-        return dataclasses.replace(table, model=model, rewards=rewards)
+            raise error.within(f"paradigms.{paradigm}") from None
 
     def header(self, assignment: Assignment) -> Header:
         """Return what an assigned interaction is about, as its log says it."""
