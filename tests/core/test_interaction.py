@@ -6,34 +6,18 @@ import math
 from collections.abc import Sequence
 
 import pytest
-from numpy.random import Generator
 
-from fetch_pomdp.core.action import Action, Pick, Point, Wait
+from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.interaction import Timing, interact, median_ray, pointing_arms
-from fetch_pomdp.core.planners.base import Decision, pick_values, unvalued
 from fetch_pomdp.core.ports import Frame, Outcome, Word
-from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item
 from fetch_pomdp.errors import ModelError, ObservationError
+from tests.core.scripted import Script
 
 HEAD = (0.0, 0.0, 1.6)
-
-
-class Script:
-    """A planner that follows a list of actions and picks item 0 after it; it notes when i_r was what."""
-
-    def __init__(self, *actions: Action) -> None:
-        self.actions, self.asked = list(actions), list[int | None]()
-
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
-        del rng
-        self.asked.append(asked)
-        action = self.actions[len(self.asked) - 1] if len(self.asked) <= len(self.actions) else Pick(0)
-        return Decision(action, 0.0, unvalued(problem), pick_values(belief.probabilities, problem))
 
 
 class Ears:

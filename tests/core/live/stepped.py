@@ -5,33 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from threading import Event
 
-from numpy.random import Generator
-
-from fetch_pomdp.core.action import Action, Pick
+from fetch_pomdp.core.action import Action
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.interaction import Timing
 from fetch_pomdp.core.live import BeliefChanged, Did, Ended, Heard, Inbox, LiveSession, SensorStatus, Update
-from fetch_pomdp.core.planners.base import Decision, pick_values, unvalued
 from fetch_pomdp.core.ports import Outcome, Word
-from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item
+from tests.core.scripted import Script
 
 TIMING = Timing(wait=1.0, question=2.8, overlap=0.8)
-
-
-class Script:
-    """A planner that follows a list of actions and picks item 0 after it; it notes when i_r was what."""
-
-    def __init__(self, *actions: Action) -> None:
-        self.actions, self.asked = list(actions), list[int | None]()
-
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
-        del rng
-        self.asked.append(asked)
-        action = self.actions[len(self.asked) - 1] if len(self.asked) <= len(self.actions) else Pick(0)
-        return Decision(action, 0.0, unvalued(problem), pick_values(belief.probabilities, problem))
 
 
 class SteppedClock:

@@ -14,7 +14,8 @@ from fetch_pomdp.core.interaction import Timing
 from fetch_pomdp.core.live import BeliefChanged, Ended, Inbox, LiveSession, Update
 from fetch_pomdp.core.ports import Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item
-from tests.core.live.stepped import Script, Stage
+from tests.core.live.stepped import Stage
+from tests.core.scripted import Script
 
 HEAD = (0.0, 0.0, 1.6)
 SIXTH = [1 / 6] * 6
