@@ -149,6 +149,19 @@ def test_a_request_a_question_an_answer_and_a_hand_over(house: House) -> None:
     assert page.next("ended")["picked"] == asked["item"]
 
 
+def test_what_is_being_typed_is_shown_and_leaves_no_trace_when_it_is_changed(house: House) -> None:
+    page = house.page()
+    page.next("status", sensor="planner", state="ok")
+    page.send({"type": "typing", "text": "green mar"})
+    shown = page.next("belief", provisional=True)
+    assert shown["heard"] == ["green"], "the last word may be unfinished"
+    page.send({"type": "typed", "text": "spoon"})
+    heard = page.next("observed")
+    assert heard["observation"]["utterance"] == "spoon"
+    belief = page.next("belief", provisional=False)["belief"]
+    assert belief["marker-1"] == pytest.approx(belief["bowl-1"])
+
+
 def test_pointing_alone_begins_an_interaction(house: House) -> None:
     page = house.page()
     page.send({"type": "ray", "head": [0, 0, 1.6], "wrist": [0.0675, 0.576, 1.447]})

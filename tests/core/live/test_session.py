@@ -191,6 +191,7 @@ def test_a_lost_sensor_is_told_once_and_ends_nothing() -> None:
 
 def test_a_hung_recogniser_is_given_up_and_typed_words_still_count() -> None:
     stage = Stage(Wait(), Wait(), Wait())
+    stage.clock.at(0.5, lambda: stage.inbox.alive("speech", 0.5))
     stage.partial(0.5, "bowl")  # and then nothing more
     stage.word(3.0, "marker")
     stage.run()
@@ -200,8 +201,18 @@ def test_a_hung_recogniser_is_given_up_and_typed_words_still_count() -> None:
     assert stage.agent.belief == pytest.approx(after("marker"))
 
 
+def test_a_text_that_is_not_typed_to_its_end_is_no_fault_of_the_ears() -> None:
+    stage = Stage(Wait())
+    stage.partial(0.5, "bowl")  # by a keyboard: there is no sensor that could be missed
+    stage.run()
+    assert stage.statuses == []
+    assert [event.observation.words for event in stage.observed] == [()]
+
+
 def test_a_recogniser_that_comes_back_is_heard_again() -> None:
     stage = Stage(*[Wait()] * 4)
+    for tenth in range(60):
+        stage.clock.at(tenth / 10, lambda at=tenth / 10: stage.inbox.alive("speech", at))
     stage.partial(0.5, "bowl")
     stage.partial(3.1, "marker")
     stage.final(3.3, "marker")

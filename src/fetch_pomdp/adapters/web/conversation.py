@@ -71,8 +71,15 @@ class Conversation:
         """Hear a text."""
         now = self.clock.now()
         self._heard_at = now
+        self.inbox.push_partial(None)
         for part in text.split():
             self.inbox.push_word(Word(part, now, now))
+
+    def expect(self, text: str) -> None:
+        """Know that a text is being typed; its words so far are a hypothesis, and the last one may be unfinished."""
+        now = self._heard_at = self.clock.now()
+        whole = text.split() if text[-1:].isspace() else text.split()[:-1]
+        self.inbox.push_partial(tuple(Word(part, now, now) for part in whole) if text.strip() else None)
 
     def point(self, frame: Frame) -> None:
         """See a skeleton."""
@@ -92,9 +99,15 @@ class Conversation:
 
     def _rest(self) -> tuple[Inbox, LiveSession]:
         inbox = Inbox()
-        inbox.subscribe(lambda _: self._came.set())
+        inbox.subscribe(lambda _: self._wake(inbox))
         listen, clock = self._listen, self.clock
         return inbox, LiveSession(self._agent, self._robot, inbox, listener=listen, clock=clock, timing=TIMING)
+
+    def _wake(self, inbox: Inbox) -> None:
+        """Begin with the first word or gesture: a noise that is no word, or a text that is deleted, begins nothing."""
+        pending = inbox.pending()
+        if pending.words or pending.frames:
+            self._came.set()
 
     def _run(self) -> None:
         try:

@@ -52,6 +52,13 @@ class Typed:
 
 
 @dataclass(frozen=True, slots=True)
+class Typing:
+    """The person is typing, and has typed so much; an empty text: they have deleted it."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Pointed:
     """The person points now, from head through wrist (m)."""
 
@@ -66,7 +73,7 @@ class Microphone:
     on: bool
 
 
-Message: TypeAlias = Hello | Typed | Pointed | Microphone
+Message: TypeAlias = Hello | Typed | Typing | Pointed | Microphone
 
 
 def message_from_text(text: str) -> Message:
@@ -136,10 +143,18 @@ def _optional_text(value: object, field: str) -> str | None:
 
 
 def _typed(data: Mapping[str, Any]) -> Typed:
+    return Typed(_required_text(data))
+
+
+def _typing(data: Mapping[str, Any]) -> Typing:
+    return Typing(_required_text(data))
+
+
+def _required_text(data: Mapping[str, Any]) -> str:
     text = _optional_text(data.get("text"), "text")
     if text is None:
         raise MessageError("found none, expected what was typed", field="text")
-    return Typed(text)
+    return text
 
 
 def _pointed(data: Mapping[str, Any]) -> Pointed:
@@ -157,6 +172,7 @@ def _microphone(data: Mapping[str, Any]) -> Microphone:
 _READERS: Mapping[str, tuple[Sequence[str], Callable[[Mapping[str, Any]], Message]]] = {
     "hello": (("version", "scene", "planner", "seed", "resume", "token"), _hello),
     "typed": (("text",), _typed),
+    "typing": (("text",), _typing),
     "ray": (("head", "wrist"), _pointed),
     "microphone": (("on",), _microphone),
 }

@@ -10,7 +10,7 @@ from typing import Any
 from fetch_pomdp.adapters.web.conversation import Conversation
 from fetch_pomdp.adapters.web.gate import Allowance
 from fetch_pomdp.adapters.web.outbox import Outbox
-from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE, Hello, Microphone, Pointed, Typed, message_from_text
+from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE, Hello, Microphone, Pointed, Typed, Typing, message_from_text
 from fetch_pomdp.adapters.web.tell import Told, complaint
 from fetch_pomdp.core.ports import Frame
 from fetch_pomdp.errors import InputError, MessageError
@@ -120,6 +120,8 @@ class Visit:
         said = message_from_text(message)
         if isinstance(said, Typed):
             self._conversation.type(said.text)
+        elif isinstance(said, Typing):
+            self._conversation.expect(said.text)
         elif isinstance(said, Pointed):
             self._conversation.point(Frame(self._conversation.clock.now(), said.head, (said.wrist,)))
         elif isinstance(said, Microphone):

@@ -74,7 +74,8 @@ class LiveSenses:
                 ends = min(max(until, self._went_on + PATIENCE), until + LONGEST)
                 if now >= ends:
                     self._inbox.push_partial(None)
-                    self._vitals.report(SPEECH, State.SLOW)
+                    if SPEECH in self._inbox.signs_of_life():  # otherwise it was typed
+                        self._vitals.report(SPEECH, State.SLOW)
             if now >= ends:
                 return
             self._clock.wait_until(min(ends, self._vitals.next_examination(now)), self._inbox.wake)

@@ -177,6 +177,7 @@ $("#talk").addEventListener("submit", (event) => {
   say($("#say").value);
   $("#say").value = "";
 });
+$("#say").addEventListener("input", () => connection.send({ type: "typing", text: $("#say").value }));
 for (const button of document.querySelectorAll("[data-say]")) button.addEventListener("click", () => { say(button.dataset.say); $("#answers").hidden = true; $("#say").focus(); });
 $("#stop").addEventListener("click", () => say("stop"));
 

@@ -1,6 +1,7 @@
 // What the robot thinks: why it acts, what each action is worth, and the story so far.
 
-import { decimal, isEnglish, join, percent, text } from "./texts.js";
+import { decimal, join, percent, text } from "./texts.js";
+import { why } from "./why.js";
 
 const MOST_ROWS = 12;
 
@@ -37,7 +38,7 @@ export class Mind {
   decide(message) {
     this.decided = message;
     if (!message.values) return;
-    document.querySelector("#why").textContent = this.#why(message);
+    document.querySelector("#why").textContent = why(message);
     for (const [id, { row, cells }] of this.rows) {
       row.classList.toggle("about", id === message.item);
       this.#value(cells[1], message.values.point[id], message.action === "point" && id === message.item);
@@ -49,16 +50,6 @@ export class Mind {
   #value(cell, value, best) {
     cell.textContent = value === null ? "–" : decimal(value);
     cell.classList.toggle("best", best);
-  }
-
-  #why(message) {
-    const { explanation } = message;
-    if (isEnglish()) return `${explanation.sentence[0].toUpperCase()}${explanation.sentence.slice(1)}.`;
-    const parts = [`${deed(message)}: ${explanation.item} ${percent(explanation.belief)}`];
-    if (explanation.rival) parts.push(`${explanation.rival} ${percent(explanation.rival_belief)}`);
-    const names = { wait: "waiting", point: "asking", pick: "picking" };
-    const worths = Object.entries(explanation.values).filter(([, option]) => option.value !== null).sort((one, other) => other[1].value - one[1].value);
-    return `${parts.join(", ")}. ${worths.map(([kind, option]) => `${text(names[kind])} ${decimal(option.value)}`).join(", ")}.`;
   }
 
   // An event becomes a line of the story; with insight, what it did to the belief follows.
@@ -103,8 +94,4 @@ function acted({ action, item, outcome }) {
   const line = text(action === "point" ? "asked" : "handed", { item });
   if (outcome === "done") return line;
   return text(outcome === "stopped" ? "stopped" : "not_done", { action: line });
-}
-
-function deed({ action, item }) {
-  return text({ wait: "waits", point: "asks_about", pick: "picks" }[action], { item });
 }
