@@ -10,7 +10,15 @@ from typing import Any
 from fetch_pomdp.adapters.web.conversation import Conversation
 from fetch_pomdp.adapters.web.gate import Allowance
 from fetch_pomdp.adapters.web.outbox import Outbox
-from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE, Hello, Microphone, Pointed, Typed, Typing, message_from_text
+from fetch_pomdp.adapters.web.protocol import (
+    LARGEST_MESSAGE,
+    Hello,
+    Microphone,
+    Pointed,
+    Typed,
+    Typing,
+    message_from_text,
+)
 from fetch_pomdp.adapters.web.tell import Told, complaint
 from fetch_pomdp.core.ports import Frame
 from fetch_pomdp.errors import InputError, MessageError
