@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from functools import partial
 
 import pytest
 
@@ -212,7 +213,7 @@ def test_a_text_that_is_not_typed_to_its_end_is_no_fault_of_the_ears() -> None:
 def test_a_recogniser_that_comes_back_is_heard_again() -> None:
     stage = Stage(*[Wait()] * 4)
     for tenth in range(60):
-        stage.clock.at(tenth / 10, lambda at=tenth / 10: stage.inbox.alive("speech", at))
+        stage.clock.at(tenth / 10, partial(stage.inbox.alive, "speech", tenth / 10))
     stage.partial(0.5, "bowl")
     stage.partial(3.1, "marker")
     stage.final(3.3, "marker")
