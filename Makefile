@@ -1,7 +1,7 @@
 # Two commands for a newcomer: make demo, make test.
 PYTHON ?= python3
 BIN := .venv/bin
-EXTRAS := --extra speech --extra serve --extra study --extra dask --extra ray
+EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
 .PHONY: demo test lint coverage check-all screenshots bench picture requirements clean

@@ -55,5 +55,6 @@ if os.environ.get("NUMBA_DISABLE_JIT") == "1":
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: takes long when Numba is off; left out of the coverage run")
     config.addinivalue_line("markers", "browser: needs Chromium and the packages of requirements/browser.txt")
+    config.addinivalue_line("markers", "postgres: needs a PostgreSQL server (tests/with_postgres.sh)")
     # Without compilation SplitMix64 wraps around in NumPy scalars, which warn.
     config.addinivalue_line("filterwarnings", "ignore:overflow encountered:RuntimeWarning")

@@ -76,6 +76,10 @@ class StudyError(InputError):
     """A study's configuration, table or log cannot be used."""
 
 
+class StoreError(InputError):
+    """A database of participants that cannot be used, or does not allow what was asked of it."""
+
+
 class MessageError(InputError):
     """A message from a page that the server does not know or allow."""
 

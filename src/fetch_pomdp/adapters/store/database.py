@@ -1,0 +1,148 @@
+"""A database, opened by its URL: transactions, and its complaints as errors of one line."""
+
+from __future__ import annotations
+
+import contextlib
+import sqlite3
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from fetch_pomdp.adapters.store.revisions import migrate
+from fetch_pomdp.adapters.store.schema import EXTRA
+from fetch_pomdp.errors import InputError, StoreError
+from fetch_pomdp.extras import load
+
+EXPECTED = "expected sqlite:///FILE or postgresql://USER:PASSWORD@HOST/DATABASE"
+PATIENCE = 60  # s that SQLite waits for another process that writes
+CONNECT = 10  # s that a PostgreSQL server may take to answer
+READ_ONLY = "fetch_pomdp_reads"  # execution option
+
+
+class ConflictError(StoreError):
+    """Another writer was first, or what was to be added to is gone."""
+
+
+class Database:
+    """Transactions on a database, from any thread.
+
+    Choice: writers in this process take turns on SQLite, which knows one writer at a time and lets the others sleep for
+    up to 100 ms before they look again.
+    """
+
+    def __init__(self, engine: Any, shown: str) -> None:
+        self.engine, self._shown = engine, shown
+        turns = engine.dialect.name == "sqlite"
+        self._turn: Any = threading.Lock() if turns else contextlib.nullcontext()
+        options = {READ_ONLY: True} if turns else {"isolation_level": "REPEATABLE READ"}
+        self._reader = engine.execution_options(**options)
+
+    @classmethod
+    def open(cls, text: str) -> Database:
+        """Open the database at a URL, with the newest tables; a file of SQLite is made if it is missing.
+
+        Raises StoreError for what is no URL, a database that does not answer or is none, and tables of a later version.
+        """
+        url = _url(text)
+        database = cls(_engine(url), shown(url))
+        try:
+            with database.writing() as connection:
+                migrate(connection)
+        except BaseException:
+            database.close()
+            raise
+        return database
+
+    @contextlib.contextmanager
+    def writing(self) -> Iterator[Any]:
+        """Begin a transaction that may write; it is committed when the block ends, or undone if it raises.
+
+        Raises ConflictError where rows contradict each other, StoreError for whatever else the database refuses.
+        """
+        with self._turn, self._translated(), self.engine.begin() as connection:
+            yield connection
+
+    @contextlib.contextmanager
+    def reading(self) -> Iterator[Any]:
+        """Begin a transaction that sees the database as it was at its first look."""
+        with self._translated(), self._reader.begin() as connection:
+            yield connection
+
+    def close(self) -> None:
+        """Close all connections."""
+        self.engine.dispose()
+
+    @contextlib.contextmanager
+    def _translated(self) -> Iterator[None]:
+        exceptions = load("sqlalchemy.exc", EXTRA)
+        try:
+            yield
+        except InputError as error:
+            raise error.located(self._shown, None) from None
+        except exceptions.IntegrityError as cause:
+            raise ConflictError(f"contradicts what is there: {self._reason(cause)}", source=self._shown) from None
+        except (exceptions.SQLAlchemyError, sqlite3.Error) as cause:
+            raise StoreError(
+                f"cannot be used: {self._reason(cause)}, expected a database that answers", source=self._shown
+            ) from None
+
+    def _reason(self, cause: Exception) -> str:
+        """Return what the driver says, on one line and without a password."""
+        text = " ".join(str(getattr(cause, "orig", None) or cause).split())
+        for secret in (self.engine.url.password, self.engine.url.query.get("password")):
+            text = text.replace(str(secret), "***") if secret else text
+        return text
+
+
+def shown(url: Any) -> str:
+    """Return a URL for messages: where the database is, without a password."""
+    parts = {name: getattr(url, name) for name in ("username", "host", "port", "database")}
+    hidden: str = type(url).create(url.get_backend_name(), **parts).render_as_string()
+    return hidden
+
+
+def _url(text: str) -> Any:
+    """Read a URL; nothing of what cannot be read is repeated, for there may be a password in it."""
+    engine = load("sqlalchemy.engine", EXTRA)
+    try:
+        url = engine.make_url(text)
+    except (load("sqlalchemy.exc", EXTRA).ArgumentError, ValueError):
+        raise StoreError(f"found no database's URL, {EXPECTED}", field="--database") from None
+    if url.get_backend_name() == "postgresql":
+        return url.set(drivername="postgresql+psycopg")
+    if url.get_backend_name() != "sqlite":
+        raise StoreError(f"found {url.get_backend_name()!r}, {EXPECTED}", field="--database")
+    if not url.database or url.database == ":memory:":
+        raise StoreError("found a database in memory, expected sqlite:///FILE: it is to last", field="--database")
+    return url.set(drivername="sqlite")
+
+
+def file_of(text: str) -> Path | None:
+    """Return the file of a database of SQLite, None for a server. Raises StoreError for what is no URL."""
+    url = _url(text)
+    return Path(url.database) if url.get_backend_name() == "sqlite" else None
+
+
+def _engine(url: Any) -> Any:
+    sa = load("sqlalchemy", EXTRA)
+    if url.get_backend_name() == "postgresql":
+        load("psycopg", "postgres")
+        arguments = {} if "connect_timeout" in url.query else {"connect_timeout": CONNECT}
+        return sa.create_engine(url, pool_pre_ping=True, pool_size=10, max_overflow=10, connect_args=arguments)
+    engine = sa.create_engine(url, connect_args={"timeout": PATIENCE})
+    sa.event.listen(engine, "connect", _prepare_sqlite)
+    sa.event.listen(engine, "begin", _begin_sqlite)
+    return engine
+
+
+def _prepare_sqlite(connection: Any, _: object) -> None:
+    connection.isolation_level = None  # Python begins no transaction of its own: `_begin_sqlite` does
+    for setting in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON", "secure_delete = ON"):
+        connection.execute(f"PRAGMA {setting}")
+
+
+def _begin_sqlite(connection: Any) -> None:
+    """Begin; a writer claims its turn at once, for one that reads first may be refused it later."""
+    reads = connection.get_execution_options().get(READ_ONLY, False)
+    connection.exec_driver_sql("BEGIN" if reads else "BEGIN IMMEDIATE")

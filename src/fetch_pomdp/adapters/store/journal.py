@@ -1,0 +1,143 @@
+"""One trial in the database, written event by event."""
+
+from __future__ import annotations
+
+import json
+import threading
+from dataclasses import dataclass
+from typing import Any
+
+from fetch_pomdp.adapters.store.database import Database
+from fetch_pomdp.adapters.store.participant import as_json, now
+from fetch_pomdp.adapters.store.schema import schema
+from fetch_pomdp.core.events import Event
+from fetch_pomdp.documents import Document
+from fetch_pomdp.errors import StoreError
+from fetch_pomdp.files.events import event_from_json, event_to_json
+from fetch_pomdp.files.header import Header, header_from_json, header_to_json
+from fetch_pomdp.files.scanning import ends
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Where a trial is in the database."""
+
+    trial: int
+    participant: int
+
+
+class TrialJournal:
+    """A trial that is written as it happens: what a method was given is committed when it returns. From any thread."""
+
+    def __init__(self, database: Database, row: Row, header: Header, events: tuple[Event, ...]) -> None:
+        self._database, self._row, self.header = database, row, header
+        self._events = list(events)
+        self._sounds: int | None = None
+        self._lock = threading.Lock()
+        self.finished = False
+        self.given_up = False
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """What has happened."""
+        return tuple(self._events)
+
+    def write(self, event: Event) -> None:
+        """Add an event; a pick that was done finishes the trial in the same commit.
+
+        Raises StoreError if somebody else writes this trial, or it is gone.
+        """
+        tables = schema()
+        with self._lock:
+            line = as_json(event_to_json(event, self.header.scene), "event")
+            with self._database.writing() as connection:
+                values = {"trial": self._row.trial, "number": len(self._events), "line": line}
+                connection.execute(tables.events.insert().values(values))
+                self._touch(connection)
+                if ends(event):
+                    self._finish(connection, given_up=False)
+            self._events.append(event)
+            self.finished = self.finished or ends(event)
+
+    def finish(self, given_up: bool) -> None:
+        """Note that the trial is over; of one that is over already nothing changes."""
+        with self._lock:
+            if self.finished:
+                return
+            with self._database.writing() as connection:
+                self._touch(connection)
+                self._finish(connection, given_up=given_up)
+            self.finished, self.given_up = True, given_up
+
+    def keep_sound(self, start: float, pcm: bytes) -> None:
+        """Add sound that began at a time (s) of the trial's clock: 16 bit, mono, 16 kHz."""
+        sa_sounds = schema().sounds
+        with self._lock, self._database.writing() as connection:
+            if self._sounds is None:
+                self._sounds = _count(connection, sa_sounds, self._row.trial)
+            values = {"trial": self._row.trial, "number": self._sounds, "start": start, "pcm": pcm}
+            connection.execute(sa_sounds.insert().values(values))
+            self._sounds += 1
+
+    def close(self) -> None:
+        """End the use of this journal; all that it holds is in the database already."""
+
+    def _touch(self, connection: Any) -> None:
+        people = schema().participants
+        connection.execute(people.update().where(people.c.id == self._row.participant).values(last=now()))
+
+    def _finish(self, connection: Any, *, given_up: bool) -> None:
+        trials = schema().trials
+        over = {"finished": now(), "given_up": given_up}
+        connection.execute(trials.update().where(trials.c.id == self._row.trial).values(over))
+
+
+def opened(database: Database, participant: int, part: str, order: int, header: Header) -> TrialJournal:
+    """Begin a trial, or go on with the one that is there, which keeps its own header.
+
+    A trial that had begun and was not over is counted as interrupted once more.
+    """
+    trials = schema().trials
+    with database.writing() as connection:
+        place = (trials.c.participant == participant, trials.c.part == part, trials.c.number == order)
+        found = connection.execute(trials.select().where(*place)).one_or_none()
+        if found is None:
+            values = {"participant": participant, "part": part, "number": order, "interruptions": 0, "given_up": False}
+            line = as_json(header_to_json(header), "header")
+            added = connection.execute(trials.insert().values(**values, header=line))
+            return TrialJournal(database, Row(added.inserted_primary_key[0], participant), header, ())
+        journal = _read(database, connection, found)
+        if journal.events and not journal.finished:
+            again = {"interruptions": trials.c.interruptions + 1}
+            connection.execute(trials.update().where(trials.c.id == found.id).values(again))
+    return journal
+
+
+def _read(database: Database, connection: Any, found: Any) -> TrialJournal:
+    header = header_from_json(json.loads(found.header))
+    events = events_of(connection, found.id, header)
+    journal = TrialJournal(database, Row(found.id, found.participant), header, events)
+    journal.finished, journal.given_up = found.finished is not None, found.given_up
+    return journal
+
+
+def events_of(connection: Any, trial: int, header: Header) -> tuple[Event, ...]:
+    """Return the events of a trial. Raises StoreError, naming the event, for one that cannot be read."""
+    events = schema().events
+    rows = connection.execute(events.select().where(events.c.trial == trial).order_by(events.c.number))
+    return tuple(_event(row.line, row.number, header) for row in rows)
+
+
+def _event(line: str, number: int, header: Header) -> Event:
+    try:
+        document = Document(f"event {number}", json.loads(line), lambda _: None)
+        return document.build(lambda data: event_from_json(data, header.scene))
+    except ValueError as cause:
+        raise StoreError(f"cannot be read: {cause}", field=f"events[{number}]") from None
+
+
+def _count(connection: Any, table: Any, trial: int) -> int:
+    import sqlalchemy as sa
+
+    query = sa.select(sa.func.count()).select_from(table).where(table.c.trial == trial)
+    return int(connection.execute(query).scalar_one())

@@ -1,0 +1,1 @@
+"""The revisions; a new one never changes those before it."""

@@ -1,0 +1,161 @@
+"""The store of a study: who takes part, how far they are, and what they did and said."""
+
+from __future__ import annotations
+
+import json
+import secrets
+from collections.abc import Callable, Mapping
+from typing import Any, Literal
+
+from fetch_pomdp import checks
+from fetch_pomdp.adapters.store import journal
+from fetch_pomdp.adapters.store.database import ConflictError, Database, file_of
+from fetch_pomdp.adapters.store.participant import STAGES, Participant, as_json, hashed, new_code, now
+from fetch_pomdp.adapters.store.schema import EXTRA, schema
+from fetch_pomdp.errors import StoreError
+from fetch_pomdp.extras import load
+from fetch_pomdp.files.header import Header
+
+TRIES = 50  # enrolments that may collide before somebody is told
+
+
+class Store:
+    """A database of participants, from any thread; what a method has written is committed when it returns."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    @classmethod
+    def open(cls, url: str) -> Store:
+        """Open the database at a URL (SQLAlchemy's), with the newest tables; one of SQLite is made if it is missing.
+
+        Raises StoreError for what is no URL, a database that does not answer or is none, and tables of a later version.
+        """
+        return cls(Database.open(url))
+
+    @classmethod
+    def existing(cls, url: str) -> Store:
+        """Open a database that is there. Raises StoreError as `open`, and for a file that is missing."""
+        file = file_of(url)
+        if file is not None and not file.is_file():
+            raise StoreError("found no such file, expected a database of participants", source=str(file))
+        return cls.open(url)
+
+    def close(self) -> None:
+        """Close all connections."""
+        self._database.close()
+
+    def enrol(
+        self, study: str, digest: str, people: int, language: str, *, trials: Callable[[int], int]
+    ) -> tuple[Participant, str]:
+        """Take somebody in, with the lowest number that is free; return them, and the secret that their page keeps.
+
+        trials: how many trials the person of a number is to have. Raises StoreError when all `people` are there, or the
+        study is there with another digest: it has changed since it began.
+        """
+        for _ in range(TRIES):
+            try:
+                return self._enrolled(study, digest, people, language, trials)
+            except ConflictError:  # another server took the number, or began the study
+                continue
+        raise StoreError(f"found a number taken {TRIES} times, expected a free one", field="person")
+
+    def _enrolled(
+        self, study: str, digest: str, people: int, language: str, trials: Callable[[int], int]
+    ) -> tuple[Participant, str]:
+        table, secret = schema().participants, secrets.token_urlsafe(24)
+        with self._database.writing() as connection:
+            number = _study(connection, study, digest, people)
+            taken = set(
+                connection.execute(
+                    table.select().with_only_columns(table.c.person).where(table.c.study == number)
+                ).scalars()
+            )
+            person = next((free for free in range(people) if free not in taken), None)
+            if person is None:
+                raise StoreError(f"found all {people} people of {study!r} there, expected a free place", field="people")
+            when = now()
+            values = {
+                "study": number, "person": person, "secret": hashed(secret), "code": new_code(), "stage": STAGES[0],
+                "language": language, "trials": trials(person), "consent": "{}", "joined": when, "last": when,
+            }  # fmt: skip
+            added = connection.execute(table.insert().values(values)).inserted_primary_key[0]
+            return _participant(connection, table.c.id == added), secret  # type: ignore[return-value]
+
+    def returning(self, secret: str) -> Participant | None:
+        """Return whom a secret belongs to, None if nobody."""
+        with self._database.reading() as connection:
+            return _participant(connection, schema().participants.c.secret == hashed(secret))
+
+    def consent(self, participant_id: int, given: Mapping[str, bool]) -> None:
+        """Note what somebody has agreed to, and when."""
+        self._change(participant_id, consent=as_json(dict(given), "consent"), consented=now())
+
+    def advance(self, participant_id: int, stage: str) -> None:
+        """Note that somebody has come to a stage; who is done gets a code that says so."""
+        if stage not in STAGES:
+            raise StoreError(f"found {checks.shown(stage)}, expected one of {', '.join(STAGES)}", field="stage")
+        over = {"finished": now(), "completion": new_code()} if stage == "done" else {}
+        self._change(participant_id, stage=stage, **over)
+
+    def trial(
+        self, participant_id: int, part: Literal["practice", "trial"], order: int, header: Header
+    ) -> journal.TrialJournal:
+        """Begin a trial, or go on with the one that is there; see `journal.opened`."""
+        return journal.opened(self._database, participant_id, part, order, header)
+
+    def answer(self, participant_id: int, question_id: str, value: object) -> None:
+        """Note an answer, in the place of an earlier one to the question. Raises StoreError for what is no JSON."""
+        answers = schema().answers
+        place = {"participant": participant_id, "question": question_id}
+        with self._database.writing() as connection:
+            where = (answers.c.participant == participant_id, answers.c.question == question_id)
+            connection.execute(answers.delete().where(*where))
+            connection.execute(answers.insert().values(**place, value=as_json(value, question_id)))
+
+    def _change(self, participant_id: int, **values: object) -> None:
+        table = schema().participants
+        with self._database.writing() as connection:
+            changed = connection.execute(
+                table.update().where(table.c.id == participant_id).values(**values, last=now())
+            )
+            if not changed.rowcount:
+                raise StoreError("found none, expected somebody who takes part", field="participant")
+
+
+def _study(connection: Any, name: str, digest: str, people: int) -> int:
+    """Return the id of a study, new or there already, and keep others from enrolling until the transaction ends."""
+    studies = schema().studies
+    found = connection.execute(studies.select().where(studies.c.name == name).with_for_update()).one_or_none()
+    if found is None:
+        values = {"name": name, "digest": digest, "people": people}
+        return int(connection.execute(studies.insert().values(values)).inserted_primary_key[0])
+    if found.digest != digest:
+        changed = f"found {name!r} there with other contents ({found.digest}, not {digest})"
+        raise StoreError(f"{changed}, expected the same study or one of another name", field="study")
+    return int(found.id)
+
+
+def _participant(connection: Any, where: Any) -> Participant | None:
+    tables, sa = schema(), load("sqlalchemy", EXTRA)
+    found = connection.execute(tables.participants.select().where(where)).one_or_none()
+    if found is None:
+        return None
+    answers = connection.execute(tables.answers.select().where(tables.answers.c.participant == found.id))
+    trials = tables.trials
+    done = sa.select(trials.c.part, sa.func.count()).where(
+        trials.c.participant == found.id, trials.c.finished.is_not(None)
+    )
+    counts = dict(connection.execute(done.group_by(trials.c.part)).tuples().all())
+    return Participant(
+        id=found.id,
+        person=found.person,
+        code=found.code,
+        stage=found.stage,
+        language=found.language,
+        consent=json.loads(found.consent),
+        answers={row.question: json.loads(row.value) for row in answers},
+        completion=found.completion,
+        practice_done=counts.get("practice", 0),
+        trials_done=counts.get("trial", 0),
+    )
