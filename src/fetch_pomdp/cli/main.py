@@ -13,6 +13,7 @@ from fetch_pomdp.cli.gap import gap
 from fetch_pomdp.cli.interact import fetch
 from fetch_pomdp.cli.logs import app as logs
 from fetch_pomdp.cli.offline import decide, filter_events, simulate
+from fetch_pomdp.cli.participants import app as participants
 from fetch_pomdp.cli.robocup import robocup
 from fetch_pomdp.cli.serve import serve_page
 from fetch_pomdp.cli.study import app as study
@@ -35,6 +36,7 @@ app.command()(gap)
 app.command()(robocup)
 app.add_typer(study, name="study")
 app.add_typer(logs, name="log")
+app.add_typer(participants, name="participants")
 app.command()(calibrate)
 app.command("serve")(serve_page)
 

@@ -20,11 +20,10 @@ from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.design import PERSON, WORLD, Study, assignments, stream
 from fetch_pomdp.study.encounter import encounter
 from fetch_pomdp.study.people.channel import Channel
-from fetch_pomdp.study.record import Record
+from fetch_pomdp.study.record import LOGS, Record
 from fetch_pomdp.study.trial import Assignment, Trial, scored
 
 Speech: TypeAlias = Callable[[tuple[str, ...]], Channel]
-LOGS = "logs"
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ from fetch_pomdp.study.trial import Assignment, Trial
 
 VERSION = 1
 NAME = "trials.jsonl"
+LOGS = "logs"  # the folder of interactions beside it
 BLOCK = 1 << 16  # bytes
 ASSIGNED = tuple(field.name for field in dataclasses.fields(Assignment))
 COLUMNS = tuple(field.name for field in dataclasses.fields(Trial))

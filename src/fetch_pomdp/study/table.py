@@ -12,7 +12,9 @@ from fetch_pomdp import checks
 from fetch_pomdp.documents import Document
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.extras import load
-from fetch_pomdp.study.record import COLUMNS, NAME, read_trials, trial_from_json
+from fetch_pomdp.files.recordings import read_recording
+from fetch_pomdp.study.from_logs import trials_of
+from fetch_pomdp.study.record import COLUMNS, LOGS, NAME, read_trials, trial_from_json
 from fetch_pomdp.study.trial import Trial
 
 CHUNK = 50_000  # trials in memory at once while a table is written
@@ -55,11 +57,17 @@ def from_frame(frame: Any) -> Iterator[Trial]:
 def read_table(path: str | Path) -> Any:
     """Return the table of a study's folder, its trials.jsonl, or a CSV or Parquet file, as a pandas DataFrame.
 
-    Raises StudyError for a file that is none of these, cannot be read, or has other columns.
+    A folder without trials.jsonl has logs, as the export of a study with people: their trials are the table. Raises
+    StudyError for a file that is none of these, cannot be read, or has other columns, EventError for a log that is
+    none.
     """
     source = Path(path)
+    logs = sorted((source / LOGS).glob("*.jsonl")) if source.is_dir() and not (source / NAME).exists() else []
     source = source / NAME if source.is_dir() else source
     pandas = load("pandas", "study")
+    if logs:
+        trials = trials_of((str(log), read_recording(log)) for log in logs)
+        return pandas.concat([to_frame([]), *_frames(trials)], ignore_index=True)
     ending = _ending(source)
     try:
         if ending == ".parquet":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import sqlite3
 import threading
 from collections.abc import Iterator
@@ -17,7 +18,8 @@ from fetch_pomdp.extras import load
 EXPECTED = "expected sqlite:///FILE or postgresql://USER:PASSWORD@HOST/DATABASE"
 PATIENCE = 60  # s that SQLite waits for another process that writes
 CONNECT = 10  # s that a PostgreSQL server may take to answer
-READ_ONLY = "fetch_pomdp_reads"  # execution option
+BEGIN = "fetch_pomdp_begin"  # execution option: how a transaction begins on SQLite
+WRITING = "BEGIN IMMEDIATE"  # its turn is claimed at once, for one that reads first may be refused it later
 
 
 class ConflictError(StoreError):
@@ -33,10 +35,11 @@ class Database:
 
     def __init__(self, engine: Any, shown: str) -> None:
         self.engine, self._shown = engine, shown
-        turns = engine.dialect.name == "sqlite"
-        self._turn: Any = threading.Lock() if turns else contextlib.nullcontext()
-        options = {READ_ONLY: True} if turns else {"isolation_level": "REPEATABLE READ"}
-        self._reader = engine.execution_options(**options)
+        self._is_file = engine.dialect.name == "sqlite"
+        self._turn: Any = threading.Lock() if self._is_file else contextlib.nullcontext()
+        reading = {BEGIN: "BEGIN"} if self._is_file else {"isolation_level": "REPEATABLE READ"}
+        outside = {BEGIN: None} if self._is_file else {"isolation_level": "AUTOCOMMIT"}
+        self._reader, self._outside = engine.execution_options(**reading), engine.execution_options(**outside)
 
     @classmethod
     def open(cls, text: str) -> Database:
@@ -69,6 +72,17 @@ class Database:
         with self._translated(), self._reader.begin() as connection:
             yield connection
 
+    def scrub(self) -> None:
+        """Remove what deleted rows have left behind: on SQLite from its files, on PostgreSQL from the tables' pages.
+
+        Raises StoreError if another program reads an older state of the file for longer than PATIENCE.
+        """
+        with self._turn, self._translated(), self._outside.connect() as connection:
+            connection.exec_driver_sql("VACUUM")
+            if self._is_file and connection.exec_driver_sql("PRAGMA wal_checkpoint(TRUNCATE)").one()[0]:
+                left = "deleted, but bytes of it stay in the file while another program reads an older state"
+                raise StoreError(f"{left}, expected it to end within {PATIENCE} s")
+
     def close(self) -> None:
         """Close all connections."""
         self.engine.dispose()
@@ -79,7 +93,7 @@ class Database:
         try:
             yield
         except InputError as error:
-            raise error.located(self._shown, None) from None
+            raise error if error.source else error.located(self._shown, None) from None
         except exceptions.IntegrityError as cause:
             raise ConflictError(f"contradicts what is there: {self._reason(cause)}", source=self._shown) from None
         except (exceptions.SQLAlchemyError, sqlite3.Error) as cause:
@@ -115,6 +129,8 @@ def _url(text: str) -> Any:
         raise StoreError(f"found {url.get_backend_name()!r}, {EXPECTED}", field="--database")
     if not url.database or url.database == ":memory:":
         raise StoreError("found a database in memory, expected sqlite:///FILE: it is to last", field="--database")
+    if url.query:
+        raise StoreError("found options of SQLite, expected sqlite:///FILE alone", field="--database")
     return url.set(drivername="sqlite")
 
 
@@ -130,6 +146,8 @@ def _engine(url: Any) -> Any:
         load("psycopg", "postgres")
         arguments = {} if "connect_timeout" in url.query else {"connect_timeout": CONNECT}
         return sa.create_engine(url, pool_pre_ping=True, pool_size=10, max_overflow=10, connect_args=arguments)
+    with contextlib.suppress(OSError):  # connecting says what is wrong
+        os.close(os.open(url.database, os.O_CREAT | os.O_RDWR, 0o600))  # nobody else's to read
     engine = sa.create_engine(url, connect_args={"timeout": PATIENCE})
     sa.event.listen(engine, "connect", _prepare_sqlite)
     sa.event.listen(engine, "begin", _begin_sqlite)
@@ -143,6 +161,6 @@ def _prepare_sqlite(connection: Any, _: object) -> None:
 
 
 def _begin_sqlite(connection: Any) -> None:
-    """Begin; a writer claims its turn at once, for one that reads first may be refused it later."""
-    reads = connection.get_execution_options().get(READ_ONLY, False)
-    connection.exec_driver_sql("BEGIN" if reads else "BEGIN IMMEDIATE")
+    begin = connection.get_execution_options().get(BEGIN, WRITING)
+    if begin is not None:
+        connection.exec_driver_sql(begin)

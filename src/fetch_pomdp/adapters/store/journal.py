@@ -9,10 +9,11 @@ from typing import Any
 
 from fetch_pomdp.adapters.store.database import Database
 from fetch_pomdp.adapters.store.participant import as_json, now
-from fetch_pomdp.adapters.store.schema import schema
+from fetch_pomdp.adapters.store.schema import EXTRA, schema
 from fetch_pomdp.core.events import Event
 from fetch_pomdp.documents import Document
 from fetch_pomdp.errors import StoreError
+from fetch_pomdp.extras import load
 from fetch_pomdp.files.events import event_from_json, event_to_json
 from fetch_pomdp.files.header import Header, header_from_json, header_to_json
 from fetch_pomdp.files.scanning import ends
@@ -51,9 +52,9 @@ class TrialJournal:
         with self._lock:
             line = as_json(event_to_json(event, self.header.scene), "event")
             with self._database.writing() as connection:
+                self._touch(connection)  # first, as whoever deletes the person does: neither waits for the other
                 values = {"trial": self._row.trial, "number": len(self._events), "line": line}
                 connection.execute(tables.events.insert().values(values))
-                self._touch(connection)
                 if ends(event):
                     self._finish(connection, given_up=False)
             self._events.append(event)
@@ -137,7 +138,6 @@ def _event(line: str, number: int, header: Header) -> Event:
 
 
 def _count(connection: Any, table: Any, trial: int) -> int:
-    import sqlalchemy as sa
-
+    sa = load("sqlalchemy", EXTRA)
     query = sa.select(sa.func.count()).select_from(table).where(table.c.trial == trial)
     return int(connection.execute(query).scalar_one())

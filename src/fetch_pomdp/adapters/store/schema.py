@@ -7,6 +7,7 @@ that could tell who they are is kept: no name, no address, no kind of browser. T
 from __future__ import annotations
 
 import functools
+import threading
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,9 +29,17 @@ class Schema:
     sounds: Any  # start: s, of the trial's clock; pcm: 16 bit, mono, 16 kHz
 
 
-@functools.cache
+_one_at_a_time = threading.Lock()
+
+
 def schema() -> Schema:
-    """Return the tables. Raises MissingExtraError without SQLAlchemy."""
+    """Return the tables, the same ones to every thread. Raises MissingExtraError without SQLAlchemy."""
+    with _one_at_a_time:
+        return _schema()
+
+
+@functools.cache
+def _schema() -> Schema:
     sa = load("sqlalchemy", EXTRA)
     metadata = sa.MetaData()
     return Schema(

@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 import secrets
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any, Literal
 
 from fetch_pomdp import checks
 from fetch_pomdp.adapters.store import journal
 from fetch_pomdp.adapters.store.database import ConflictError, Database, file_of
+from fetch_pomdp.adapters.store.exporting import Exported, Scored, export
+from fetch_pomdp.adapters.store.forgetting import Forgotten, forget
 from fetch_pomdp.adapters.store.participant import STAGES, Participant, as_json, hashed, new_code, now
+from fetch_pomdp.adapters.store.progress import Progress, progress
 from fetch_pomdp.adapters.store.schema import EXTRA, schema
 from fetch_pomdp.errors import StoreError
 from fetch_pomdp.extras import load
@@ -95,8 +99,10 @@ class Store:
         """Note that somebody has come to a stage; who is done gets a code that says so."""
         if stage not in STAGES:
             raise StoreError(f"found {checks.shown(stage)}, expected one of {', '.join(STAGES)}", field="stage")
+        sa, people = load("sqlalchemy", EXTRA), schema().participants
         over = {"finished": now(), "completion": new_code()} if stage == "done" else {}
-        self._change(participant_id, stage=stage, **over)
+        first = {name: sa.func.coalesce(people.c[name], value) for name, value in over.items()}  # once for all
+        self._change(participant_id, stage=stage, **first)
 
     def trial(
         self, participant_id: int, part: Literal["practice", "trial"], order: int, header: Header
@@ -112,6 +118,26 @@ class Store:
             where = (answers.c.participant == participant_id, answers.c.question == question_id)
             connection.execute(answers.delete().where(*where))
             connection.execute(answers.insert().values(**place, value=as_json(value, question_id)))
+
+    def progress(self, study: str | None = None) -> tuple[Progress, ...]:
+        """Return how far everybody is, in this study or in all. Raises StoreError for a study that is not there."""
+        with self._database.reading() as connection:
+            return progress(connection, study)
+
+    def export(self, folder: Path, study: str | None = None, *, scored: Scored) -> Exported:
+        """Write a study into a new folder; see `exporting.export`."""
+        with self._database.reading() as connection:
+            return export(connection, folder, study, scored)
+
+    def forget(self, code: str) -> Forgotten:
+        """Delete all there is of the person with a code, from the tables and from what the tables leave behind.
+
+        Raises StoreError if nobody has the code.
+        """
+        with self._database.writing() as connection:
+            forgotten = forget(connection, code)
+        self._database.scrub()
+        return forgotten
 
     def _change(self, participant_id: int, **values: object) -> None:
         table = schema().participants
@@ -143,10 +169,10 @@ def _participant(connection: Any, where: Any) -> Participant | None:
         return None
     answers = connection.execute(tables.answers.select().where(tables.answers.c.participant == found.id))
     trials = tables.trials
-    done = sa.select(trials.c.part, sa.func.count()).where(
+    done = sa.select(trials.c.part, sa.func.count().label("number")).where(
         trials.c.participant == found.id, trials.c.finished.is_not(None)
     )
-    counts = dict(connection.execute(done.group_by(trials.c.part)).tuples().all())
+    counts = {row.part: row.number for row in connection.execute(done.group_by(trials.c.part))}
     return Participant(
         id=found.id,
         person=found.person,

@@ -1,0 +1,80 @@
+"""The commands participants list, export and forget: the people of a study over the page."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from fetch_pomdp.adapters.store.store import Store
+from fetch_pomdp.cli.options import Json, as_json
+from fetch_pomdp.study.from_logs import trials_of
+
+app = typer.Typer(
+    help="People who take part in a study over the page: how far they are, their data.", no_args_is_help=True
+)
+
+DATABASE = "sqlite:///participants.db"
+Database = Annotated[
+    str, typer.Option(metavar="URL", help="sqlite:///FILE or postgresql://USER:PASSWORD@HOST/DATABASE.")
+]
+StudyName = Annotated[str | None, typer.Option("--study", metavar="NAME", help="Where the database has several.")]
+SHOWN = ("person", "code", "stage", "language", "joined", "last", "trials", "interruptions", "given up")
+
+
+@app.command("list")
+def show(database: Database = DATABASE, study: StudyName = None, json_lines: Json = False) -> None:
+    """Print how far everybody is: a table, or JSON Lines."""
+    with _store(database) as store:
+        people = store.progress(study)
+    if as_json(json_lines):
+        for one in people:
+            print(json.dumps(dataclasses.asdict(one)))
+        return
+    table = Table("study", *SHOWN)
+    for one in people:
+        trials = f"{one.trials_done} of {one.of}"
+        row = (one.study, one.person, one.code, one.stage, one.language, one.joined, one.last, trials)
+        table.add_row(*map(str, (*row, one.interruptions, one.given_up)))
+    Console(highlight=False).print(table)
+
+
+@app.command()
+def export(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A new folder.")],
+    database: Database = DATABASE,
+    study: StudyName = None,
+) -> None:
+    """Write a study into a folder, which `fetch-pomdp study report DIR` reads: logs, tables, and sound where kept."""
+    with _store(database) as store:
+        done = store.export(folder, study, scored=trials_of)
+    more = f", {done.unfinished} unfinished, {done.practice} of practice"
+    print(f"wrote {folder}: {done.study}, {done.people} people, {done.trials} trials{more}")
+
+
+@app.command()
+def forget(
+    code: Annotated[str, typer.Argument(metavar="CODE", help="As it was shown to the person, such as K7Q-2MP.")],
+    database: Database = DATABASE,
+) -> None:
+    """Delete everything that is kept of one person, at once."""
+    with _store(database) as store:
+        gone = store.forget(code)
+    rows = ", ".join(f"{number} {table}" for table, number in gone.rows.items() if table != "participants")
+    print(f"deleted {gone.code}: {rows}")
+
+
+@contextlib.contextmanager
+def _store(url: str) -> Iterator[Store]:
+    store = Store.existing(url)
+    try:
+        yield store
+    finally:
+        store.close()

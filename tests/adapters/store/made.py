@@ -1,0 +1,31 @@
+"""What the tests of the store share."""
+
+from __future__ import annotations
+
+import pytest
+
+from fetch_pomdp.adapters.store.participant import Participant
+from fetch_pomdp.adapters.store.store import Store
+from fetch_pomdp.core.action import Pick, Wait
+from fetch_pomdp.core.events import Acted
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.files.header import Header
+
+BOTH = ["sqlite", pytest.param("postgres", marks=pytest.mark.postgres)]
+SCENE = Scene.load("ambiguous")
+WAITED, PICKED = Acted(Wait(), time=1.0), Acted(Pick(1), time=2.5)
+
+
+def header(person: int, order: int, target: str = "bowl-2", paradigm: str = "never") -> Header:
+    return Header(
+        scene=SCENE, scene_name="ambiguous", planner="never", target=target, person=person, layout="ambiguous",
+        paradigm=paradigm, order=order, begun=0.0,
+    )  # fmt: skip
+
+
+def enrolled(store: Store, study: str = "pilot", people: int = 4, digest: str = "d1") -> tuple[Participant, str]:
+    return store.enrol(study, digest, people, "en", trials=lambda person: 6 + person)
+
+
+def joined(store: Store, study: str = "pilot") -> Participant:
+    return enrolled(store, study)[0]

@@ -1,0 +1,162 @@
+"""A study written into a folder: the same events, in the form that the analysis reads."""
+
+from __future__ import annotations
+
+import csv
+import tempfile
+import wave
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fetch_pomdp.adapters.store.exporting import Exported
+from fetch_pomdp.adapters.store.store import Store
+from fetch_pomdp.core.events import Event, Observed
+from fetch_pomdp.errors import StoreError
+from fetch_pomdp.files.checking import checked
+from fetch_pomdp.files.recordings import read_recording
+from fetch_pomdp.files.scanning import ends
+from fetch_pomdp.study.from_logs import trials_of
+from fetch_pomdp.study.table import from_frame, read_table
+from tests.adapters.store.made import PICKED, WAITED, header, joined
+from tests.files.test_recordings import events as any_event
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def in_order(happened: list[Event]) -> list[Event]:
+    """The events that one trial can have: up to a hand-over, and heard words in their utterance."""
+    kept: list[Event] = []
+    for event in happened:
+        if isinstance(event, Observed) and event.words and not event.observation.words:
+            continue  # an utterance of null is that of its words
+        kept.append(event)
+        if ends(event):
+            break
+    return kept
+
+
+@settings(max_examples=20)
+@given(trials=st.lists(st.lists(any_event, max_size=8).map(in_order), min_size=1, max_size=3))
+def test_what_is_written_is_what_is_exported(trials: list[list[Event]]) -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        store = Store.open(f"sqlite:///{folder / 'p.db'}")
+        someone = joined(store)
+        for order, happened in enumerate(trials):
+            trial = store.trial(someone.id, "trial", order, header(0, order))
+            for event in happened:
+                trial.write(event)
+            assert store.trial(someone.id, "trial", order, header(0, order)).events == tuple(happened)
+            trial.finish(given_up=not trial.finished)
+        store.export(folder / "out", scored=trials_of)
+        store.close()
+        for order, happened in enumerate(trials):
+            recording = read_recording(folder / "out" / "logs" / f"0000-{order:03}.jsonl")
+            assert recording.header == header(0, order)
+            assert list(recording.events) == happened
+        assert len(rows(folder / "out" / "trials.csv")) == len(trials)
+
+
+@pytest.fixture
+def studied(store: Store) -> Store:
+    """Two people: one has ended, given up and left trials, practised and answered; one has withdrawn."""
+    someone, gone = joined(store), joined(store)
+    store.consent(someone.id, {"sound": True})
+    store.trial(someone.id, "practice", 0, header(0, 0)).write(PICKED)
+    for order in range(2):
+        trial = store.trial(someone.id, "trial", order, header(0, order, "bowl-2" if order else "spoon-1"))
+        trial.write(WAITED)
+        trial.write(PICKED)
+    left = store.trial(someone.id, "trial", 2, header(0, 2))
+    left.write(WAITED)
+    left.finish(given_up=True)
+    store.trial(someone.id, "trial", 3, header(0, 3)).write(WAITED)
+    store.answer(someone.id, "understood", 'names, "one"\nand more')
+    store.answer(someone.id, "parts", ["names", "pointing"])
+    store.trial(gone.id, "trial", 0, header(1, 0)).write(PICKED)
+    store.answer(gone.id, "understood", "nothing")
+    store.advance(gone.id, "withdrawn")
+    return store
+
+
+def test_an_export_holds_the_study_and_nothing_of_who_withdrew(studied: Store, tmp_path: Path) -> None:
+    folder = tmp_path / "deep" / "out"
+    assert studied.export(folder, scored=trials_of) == Exported("pilot", 2, trials=3, unfinished=1, practice=1)
+    assert sorted(str(path.relative_to(folder)) for path in folder.rglob("*.*")) == [
+        "answers.csv", "logs/0000-000.jsonl", "logs/0000-001.jsonl", "logs/0000-002.jsonl", "participants.csv",
+        "practice/0000-000.jsonl", "trials.csv", "unfinished/0000-003.jsonl",
+    ]  # fmt: skip
+    assert list(tmp_path.rglob(".*")) == []
+    for log in folder.rglob("*.jsonl"):
+        assert checked(log).faults == ()
+    table = rows(folder / "trials.csv")
+    assert [(row["order"], row["picked"], row["correct"], row["time"]) for row in table] == [
+        ("0", "bowl-2", "False", "2.5"), ("1", "bowl-2", "True", "2.5"), ("2", "", "False", "1.0"),
+    ]  # fmt: skip
+    assert rows(folder / "answers.csv") == [
+        {"person": "0", "question": "parts", "value": '["names", "pointing"]'},
+        {"person": "0", "question": "understood", "value": 'names, "one"\nand more'},
+    ]
+    first, second = rows(folder / "participants.csv")
+    assert (first["person"], first["stage"], first["trials_done"], first["of"], first["given_up"]) == (
+        "0", "consent", "3", "6", "1",
+    )  # fmt: skip
+    assert second["stage"] == "withdrawn"
+    assert not {"secret", "id"} & set(first)
+
+
+def test_the_folder_is_read_as_the_table_of_a_study(studied: Store, tmp_path: Path) -> None:
+    studied.export(tmp_path / "out", scored=trials_of)
+    from_logs, from_csv = read_table(tmp_path / "out"), read_table(tmp_path / "out" / "trials.csv")
+    assert list(from_frame(from_logs)) == list(from_frame(from_csv))
+    assert len(from_logs) == 3
+
+
+def test_a_folder_that_is_there_is_left_alone(studied: Store, tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    with pytest.raises(StoreError, match="out: found something there already, expected a new folder"):
+        studied.export(tmp_path / "out", scored=trials_of)
+    (tmp_path / "file").touch()
+    with pytest.raises(StoreError, match="cannot be written: "):
+        studied.export(tmp_path / "file" / "out", scored=trials_of)
+
+
+def test_one_study_of_several_must_be_named(store: Store, tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match="study: found no study"):
+        store.export(tmp_path / "out", scored=trials_of)
+    joined(store, "a"), joined(store, "b")
+    with pytest.raises(StoreError, match="study: found a, b, expected the name of one"):
+        store.export(tmp_path / "out", scored=trials_of)
+    assert store.export(tmp_path / "out", "b", scored=trials_of).study == "b"
+    assert rows(tmp_path / "out" / "answers.csv") == []
+    assert not (tmp_path / "out" / "trials.csv").exists()
+
+
+def test_sound_is_on_the_clock_of_its_trial(store: Store, tmp_path: Path) -> None:
+    someone = joined(store)
+    half = np.arange(8_000, dtype="<i2").tobytes()
+    trial = store.trial(someone.id, "trial", 0, header(0, 0))
+    trial.keep_sound(1.0, half)
+    trial.keep_sound(1.55, half)  # late by 50 ms: it follows at once
+    again = store.trial(someone.id, "trial", 0, header(0, 0))
+    again.keep_sound(3.0, half)
+    again.write(PICKED)
+    store.trial(someone.id, "trial", 1, header(0, 1)).write(PICKED)
+    store.export(tmp_path / "out", scored=trials_of)
+    (path,) = (tmp_path / "out" / "sound").rglob("*.wav")
+    assert path.name == "0000-000.wav"
+    with wave.open(str(path)) as sound:
+        assert sound.getparams()[:4] == (1, 2, 16_000, 3 * 16_000 + 8_000)
+        found = np.frombuffer(sound.readframes(sound.getnframes()), dtype="<i2")
+    assert np.flatnonzero(np.diff(found, prepend=0) > 1).tolist() == []
+    for start in (16_000, 24_000, 48_000):
+        assert found[start : start + 8_000].tolist() == list(range(8_000))
+    assert not found[:16_000].any()
+    assert not found[32_000:48_000].any()

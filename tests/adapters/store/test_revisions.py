@@ -1,0 +1,99 @@
+"""The tables grow with the package, and what is in them stays."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import alembic.autogenerate
+import alembic.migration
+import pytest
+import sqlalchemy as sa
+
+from fetch_pomdp.adapters.store.database import Database, _engine, _url
+from fetch_pomdp.adapters.store.revisions import migrate
+from fetch_pomdp.adapters.store.schema import schema
+from fetch_pomdp.adapters.store.store import Store
+from fetch_pomdp.errors import StoreError
+from tests.adapters.store.made import PICKED, WAITED, header, joined
+
+
+@pytest.fixture
+def database(url: str) -> Any:
+    """A database without tables."""
+    made = Database(_engine(_url(url)), "here")
+    yield made
+    made.close()
+
+
+def differences(database: Database) -> list[Any]:
+    with database.writing() as connection:
+        context = alembic.migration.MigrationContext.configure(connection, opts={"compare_type": True})
+        return list(alembic.autogenerate.compare_metadata(context, schema().metadata))
+
+
+def test_the_revisions_make_the_tables_of_the_schema(database: Database) -> None:
+    with database.writing() as connection:
+        migrate(connection)
+    assert differences(database) == []
+    with database.writing() as connection:
+        names = {name: sa.inspect(connection).get_unique_constraints(name) for name in schema().metadata.tables}
+        connection.exec_driver_sql("ALTER TABLE answers ADD COLUMN more TEXT")
+    assert {one["name"] for one in names["participants"]} == {
+        "participants_person", "participants_secret", "participants_code",
+    }  # fmt: skip
+    assert len(differences(database)) == 1, "a difference is seen"
+
+
+def test_an_upgrade_keeps_what_is_there(database: Database, url: str) -> None:
+    with database.writing() as connection:
+        migrate(connection, "0001")
+        assert "sounds" not in sa.inspect(connection).get_table_names()
+    old = Store(database)
+    someone = joined(old)
+    old.trial(someone.id, "trial", 0, header(0, 0)).write(WAITED)
+    old.answer(someone.id, "ease", 4)
+    new = Store.open(url)
+    trial = new.trial(someone.id, "trial", 0, header(0, 0))
+    assert trial.events == (WAITED,)
+    trial.keep_sound(0.0, b"\0\1")
+    trial.write(PICKED)
+    assert new.forget(someone.code).rows == {"participants": 1, "trials": 1, "events": 2, "answers": 1, "sounds": 1}
+    assert differences(database) == []
+    new.close()
+
+
+def test_tables_of_a_later_version_are_left_alone(database: Database, url: str) -> None:
+    Store.open(url).close()
+    with database.writing() as connection:
+        connection.exec_driver_sql("UPDATE alembic_version SET version_num = '0999'")
+    with pytest.raises(StoreError, match="found tables of revision 0999, expected 0002 or an earlier one"):
+        Store.open(url)
+
+
+def test_a_revision_that_fails_leaves_nothing(database: Database, url: str) -> None:
+    with database.writing() as connection:
+        connection.exec_driver_sql("CREATE TABLE answers (mine INTEGER)")
+    with pytest.raises(StoreError, match=r"cannot be used: .*answers.* already exists"):
+        Store.open(url)
+    with database.writing() as connection:
+        assert sa.inspect(connection).get_table_names() == ["answers"]
+
+
+def test_several_open_a_new_database_at_once(url: str) -> None:
+    failed: list[Exception] = []
+    start = threading.Barrier(6)
+
+    def come() -> None:
+        start.wait()
+        try:
+            Store.open(url).close()
+        except StoreError as error:
+            failed.append(error)
+
+    people = [threading.Thread(target=come) for _ in range(6)]
+    for one in people:
+        one.start()
+    for one in people:
+        one.join()
+    assert failed == []
