@@ -65,7 +65,7 @@ def test_forget_deletes_one(run: Run, url: str) -> None:
 def test_bad_input_is_one_line_and_code_2(tmp_path: Path) -> None:
     """In a process of its own, for libraries that print on their own."""
     program = [str(Path(sys.executable).with_name("fetch-pomdp")), "participants", "list", "--database"]
-    for url in (f"sqlite:///{tmp_path / 'none.db'}", "postgresql://u:s3cr3t@127.0.0.1:1/d", "sqlite:/x", "x:y@z"):
+    for url in (f"sqlite:///{tmp_path / 'none.db'}", "postgresql://u:s3cr3t@127.0.0.1:1/d"):
         done = subprocess.run([*program, url], capture_output=True, text=True, check=False)
         assert (done.returncode, done.stdout) == (2, "")
         assert done.stderr.startswith("fetch-pomdp: ")

@@ -18,6 +18,7 @@ from fetch_pomdp.extras import load
 EXPECTED = "expected sqlite:///FILE or postgresql://USER:PASSWORD@HOST/DATABASE"
 PATIENCE = 60  # s that SQLite waits for another process that writes
 CONNECT = 10  # s that a PostgreSQL server may take to answer
+POOL = 20  # connections to a PostgreSQL server; a new one for each of a crowd would cost more than a commit
 BEGIN = "fetch_pomdp_begin"  # execution option: how a transaction begins on SQLite
 WRITING = "BEGIN IMMEDIATE"  # its turn is claimed at once, for one that reads first may be refused it later
 
@@ -145,7 +146,7 @@ def _engine(url: Any) -> Any:
     if url.get_backend_name() == "postgresql":
         load("psycopg", "postgres")
         arguments = {} if "connect_timeout" in url.query else {"connect_timeout": CONNECT}
-        return sa.create_engine(url, pool_pre_ping=True, pool_size=10, max_overflow=10, connect_args=arguments)
+        return sa.create_engine(url, pool_pre_ping=True, pool_size=POOL, max_overflow=0, connect_args=arguments)
     with contextlib.suppress(OSError):  # connecting says what is wrong
         os.close(os.open(url.database, os.O_CREAT | os.O_RDWR, 0o600))  # nobody else's to read
     engine = sa.create_engine(url, connect_args={"timeout": PATIENCE})

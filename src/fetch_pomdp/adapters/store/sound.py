@@ -13,8 +13,9 @@ JITTER = 0.1  # s that a piece may come late and still follow the one before it
 def write_wav(path: Path, pieces: Iterable[tuple[float, bytes]]) -> None:
     """Write pieces of sound, each with the time (s) it began at; nothing for no pieces.
 
-    Where nothing was kept there is silence. Choice: a piece that is late by less than JITTER follows at once, for it is
-    the network that was late.
+    Where nothing was kept there is silence.
+
+    Choice: a piece that is late by less than JITTER follows at once, for it is the network that was late.
     """
     stream: wave.Wave_write | None = None
     for start, pcm in pieces:
