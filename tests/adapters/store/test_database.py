@@ -11,7 +11,7 @@ import sqlalchemy as sa
 from fetch_pomdp.adapters.store import database
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.errors import StoreError
-from tests.adapters.store.made import joined
+from tests.adapters.store.made import PICKED, WAITED, header, joined
 
 SECRET = "s3cr3t-w0rd"
 
@@ -113,3 +113,18 @@ def test_what_a_server_refuses(url: str) -> None:
     assert str(right.password) not in str(raised.value)
     plain = right.set(drivername="postgresql").render_as_string(hide_password=False)
     Store.open(plain).close()
+
+
+@pytest.mark.postgres
+@pytest.mark.parametrize("url", ["postgres"], indirect=True)
+def test_a_server_that_was_started_anew_is_found_again(url: str) -> None:
+    store = Store.open(url)
+    trial = store.trial(joined(store).id, "trial", 0, header(0, 0))
+    trial.write(WAITED)
+    engine = sa.create_engine(url, poolclass=sa.NullPool)
+    with engine.connect() as other:  # what a restart does to those who are connected
+        others = "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = current_database()"
+        assert other.exec_driver_sql(f"{others} AND pid <> pg_backend_pid()").scalars().all() == [True]
+    trial.write(PICKED)
+    assert store.trial(1, "trial", 0, header(0, 0)).events == (WAITED, PICKED)
+    store.close()

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import shutil
+import threading
+import time
 from pathlib import Path
 
 import pytest
 
+from fetch_pomdp.adapters.store.journal import TrialJournal
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.action import Wait
 from fetch_pomdp.core.events import Observed
@@ -82,6 +85,29 @@ def test_an_open_journal_of_somebody_who_is_gone_writes_nothing(store: Store) ->
     with pytest.raises(StoreError, match="contradicts what is there"):
         trial.keep_sound(0.0, b"\0\0")
     assert store.trial(again.id, "trial", 0, header(0, 0)).events == ()
+
+
+def test_deleting_and_writing_at_once_never_wait_for_each_other(store: Store) -> None:
+    for _ in range(5):
+        someone = joined(store)
+        trial = store.trial(someone.id, "trial", 0, header(0, 0))
+        ended: list[StoreError] = []
+
+        def write(trial: TrialJournal = trial, ended: list[StoreError] = ended) -> None:
+            while not ended:
+                try:
+                    trial.write(WAITED)
+                except StoreError as error:
+                    ended.append(error)
+
+        writer = threading.Thread(target=write)
+        writer.start()
+        while len(trial.events) < 5 and not ended:
+            time.sleep(0.001)
+        assert store.forget(someone.code).rows["events"] >= 5
+        writer.join()
+        assert "contradicts what is there" in str(ended[0]), "the trial is gone; no deadlock had to be broken"
+    assert store.progress() == ()
 
 
 def test_a_copy_of_the_file_has_all_that_was_committed(tmp_path: Path) -> None:
