@@ -38,6 +38,9 @@ def test_list_prints_how_far_they_are(run: Run, url: str) -> None:
     assert [(one["person"], one["trials_done"], one["of"]) for one in people] == [
         (0, 4, 6), (1, 4, 7), (2, 4, 8), (3, 4, 9), (4, 0, 10),
     ]  # fmt: skip
+    code, out, err = run("participants", "list", "--database", url, "--study", "pilt")
+    assert (code, out) == (2, "")
+    assert err == "fetch-pomdp: study: found nobody of 'pilt', expected people who take part\n"
 
 
 def test_an_export_is_checked_and_reported(run: Run, url: str, tmp_path: Path) -> None:

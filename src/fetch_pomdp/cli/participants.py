@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import itertools
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.box import SIMPLE
 from rich.console import Console
-from rich.table import Table
+from rich.table import Column, Table
 
+from fetch_pomdp.adapters.store.progress import Progress
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.cli.options import Json, as_json
+from fetch_pomdp.errors import StoreError
 from fetch_pomdp.study.from_logs import trials_of
 
 app = typer.Typer(
@@ -26,7 +30,6 @@ Database = Annotated[
     str, typer.Option(metavar="URL", help="sqlite:///FILE or postgresql://USER:PASSWORD@HOST/DATABASE.")
 ]
 StudyName = Annotated[str | None, typer.Option("--study", metavar="NAME", help="Where the database has several.")]
-SHOWN = ("person", "code", "stage", "language", "joined", "last", "trials", "interruptions", "given up")
 
 
 @app.command("list")
@@ -34,16 +37,27 @@ def show(database: Database = DATABASE, study: StudyName = None, json_lines: Jso
     """Print how far everybody is: a table, or JSON Lines."""
     with _store(database) as store:
         people = store.progress(study)
+    if not people:
+        raise StoreError(
+            f"found nobody{f' of {study!r}' if study else ''}, expected people who take part", field="study"
+        )
     if as_json(json_lines):
         for one in people:
             print(json.dumps(dataclasses.asdict(one)))
         return
-    table = Table("study", *SHOWN)
+    for name, group in itertools.groupby(people, key=lambda one: one.study):
+        Console(highlight=False).print(_table(name, group))
+
+
+def _table(study: str, people: Iterable[Progress]) -> Table:
+    plain = [Column(name, no_wrap=True) for name in ("person", "code", "stage", "last (UTC)")]
+    counts = [Column(name, justify="right") for name in ("trials", "breaks", "given up")]
+    table = Table(*plain, *counts, title=study, box=SIMPLE)
     for one in people:
-        trials = f"{one.trials_done} of {one.of}"
-        row = (one.study, one.person, one.code, one.stage, one.language, one.joined, one.last, trials)
-        table.add_row(*map(str, (*row, one.interruptions, one.given_up)))
-    Console(highlight=False).print(table)
+        last, trials = one.last.replace("T", " ")[:16], f"{one.trials_done} of {one.of}"
+        row = (one.person, one.code, one.stage, last, trials, one.interruptions, one.given_up)
+        table.add_row(*map(str, row))
+    return table
 
 
 @app.command()

@@ -134,6 +134,8 @@ def test_one_study_of_several_must_be_named(store: Store, tmp_path: Path) -> Non
     joined(store, "a"), joined(store, "b")
     with pytest.raises(StoreError, match="study: found a, b, expected the name of one"):
         store.export(tmp_path / "out", scored=trials_of)
+    with pytest.raises(StoreError, match="pilot: unknown study, expected one of a, b"):
+        store.export(tmp_path / "out", "pilot", scored=trials_of)
     assert store.export(tmp_path / "out", "b", scored=trials_of).study == "b"
     assert rows(tmp_path / "out" / "answers.csv") == []
     assert not (tmp_path / "out" / "trials.csv").exists()

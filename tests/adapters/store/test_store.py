@@ -136,14 +136,11 @@ def test_progress_counts_trials_without_practice(store: Store) -> None:
 
 
 def test_progress_of_several_studies(store: Store) -> None:
-    with pytest.raises(StoreError, match="study: found no study, expected one that somebody has begun"):
-        store.progress("pilot")
     assert store.progress() == ()
     joined(store, "b"), joined(store, "a")
     assert [one.study for one in store.progress()] == ["a", "b"]
     assert [one.study for one in store.progress("b")] == ["b"]
-    with pytest.raises(StoreError, match="pilot: unknown study, expected one of a, b"):
-        store.progress("pilot")
+    assert store.progress("pilot") == ()
 
 
 def test_two_who_write_one_trial_are_told(store: Store) -> None:

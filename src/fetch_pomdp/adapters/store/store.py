@@ -120,7 +120,7 @@ class Store:
             connection.execute(answers.insert().values(**place, value=as_json(value, question_id)))
 
     def progress(self, study: str | None = None) -> tuple[Progress, ...]:
-        """Return how far everybody is, in this study or in all. Raises StoreError for a study that is not there."""
+        """Return how far everybody is, in this study or in all; nobody for a study that nobody has begun."""
         with self._database.reading() as connection:
             return progress(connection, study)
 
