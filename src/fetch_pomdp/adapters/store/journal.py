@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
+import time
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +18,8 @@ from fetch_pomdp.extras import load
 from fetch_pomdp.files.events import event_from_json, event_to_json
 from fetch_pomdp.files.header import Header, header_from_json, header_to_json
 from fetch_pomdp.files.scanning import ends
+
+FRESH = 20.0  # s in which a person's time of last writing is not written again
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +37,7 @@ class TrialJournal:
         self._database, self._row, self.header = database, row, header
         self._events = list(events)
         self._sounds: int | None = None
+        self._touched = -FRESH
         self._lock = threading.Lock()
         self.finished = False
         self.given_up = False
@@ -84,8 +88,11 @@ class TrialJournal:
         """End the use of this journal; all that it holds is in the database already."""
 
     def _touch(self, connection: Any) -> None:
+        if time.monotonic() - self._touched < FRESH:
+            return
         people = schema().participants
         connection.execute(people.update().where(people.c.id == self._row.participant).values(last=now()))
+        self._touched = time.monotonic()
 
     def _finish(self, connection: Any, *, given_up: bool) -> None:
         trials = schema().trials

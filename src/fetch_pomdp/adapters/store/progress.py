@@ -23,7 +23,7 @@ class Progress:
     language: str
     joined: str
     consented: str | None  # when
-    last: str  # when something was last written
+    last: str  # when something was last written, to within half a minute
     finished: str | None
     trials_done: int
     of: int  # how many they are to have
