@@ -49,6 +49,14 @@ def test_a_page_s_tables_expect_live_people_unless_their_file_does_not() -> None
     assert (own.p_l, own.p_g) == (0.9, LIVE_MODEL["p_g"])
 
 
+@pytest.mark.parametrize("scene", ["ambiguous", {"toml": TABLE + "[model]\nsigma = 0.1\nalpha = 0.5\n"}])
+def test_a_calibrated_camera_sets_the_spread_of_pointing_and_nothing_else(scene: Any) -> None:
+    plain, calibrated = hello(scene=scene, sigma=None).scene, hello(scene=scene, sigma=0.21).scene
+    assert plain == hello(scene=scene).scene
+    assert calibrated.model.with_changes({"sigma": plain.model.sigma}) == plain.model
+    assert (calibrated.model.sigma, calibrated.items) == (0.21, plain.items)
+
+
 def test_the_other_messages() -> None:
     assert message_from_text('{"type": "typed", "text": "the cup"}') == Typed("the cup")
     assert message_from_text('{"type": "microphone", "on": true}') == Microphone(True)
@@ -78,6 +86,10 @@ def test_the_other_messages() -> None:
         ('{"type": "hello", "version": 1, "scene": {"path": "/etc/passwd"}}', "path"),
         ('{"type": "hello", "version": 1, "planner": "best"}', "planner"),
         ('{"type": "hello", "version": 1, "seed": -1}', "seed"),
+        ('{"type": "hello", "version": 1, "sigma": 0}', "sigma"),
+        ('{"type": "hello", "version": 1, "sigma": 0.31}', "sigma"),
+        ('{"type": "hello", "version": 1, "sigma": NaN}', "sigma"),
+        ('{"type": "hello", "version": 1, "sigma": "0.1"}', "sigma"),
         ('{"type": "hello", "version": 1, "resume": 7}', "resume"),
         ("[" * 100_000, ""),
     ],

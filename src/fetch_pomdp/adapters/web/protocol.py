@@ -11,6 +11,7 @@ does to the belief is the same with both; only what the robot expects of the nex
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -30,11 +31,15 @@ LARGEST_MESSAGE = 65_536  # bytes, of text or sound
 LONGEST_TEXT = 300  # letters a person types at once
 MOST_ITEMS = 40  # a planner solves so many in a second or two
 LIVE_MODEL: Mapping[str, Any] = {"p_l": 0.3, "p_g": 0.02}
+SIGMAS = (0.02, 0.3)  # rad, of a calibrated camera: nobody's arm is surer, and with a less sure one the mouse is used
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hello:
-    """The first message: which table, which planner, and which interaction to go on with, if any."""
+    """The first message: which table, which planner, and which interaction to go on with, if any.
+
+    The scene's model has the spread of pointing (`sigma`, rad) that the page's camera was calibrated to, if it was.
+    """
 
     scene: Scene
     scene_name: str | None
@@ -102,6 +107,10 @@ def _hello(data: Mapping[str, Any]) -> Hello:
     if type(seed) is not int or not 0 <= seed < 2**53:
         raise MessageError(f"found {shown(seed)}, expected a whole number from 0", field="seed")
     scene, name = _scene(data.get("scene", "ambiguous"))
+    if data.get("sigma") is not None:
+        expected = f"an angle from {SIGMAS[0]} to {SIGMAS[1]} rad"
+        sigma = checks.within(data["sigma"], *SIGMAS, "sigma", expected, MessageError)
+        scene = dataclasses.replace(scene, model=dataclasses.replace(scene.model, sigma=sigma))
     resume, token = (_optional_text(data.get(field), field) for field in ("resume", "token"))
     return Hello(scene=scene, scene_name=name, planner=planner, seed=seed, resume=resume, token=token)
 
@@ -170,7 +179,7 @@ def _microphone(data: Mapping[str, Any]) -> Microphone:
 
 
 _READERS: Mapping[str, tuple[Sequence[str], Callable[[Mapping[str, Any]], Message]]] = {
-    "hello": (("version", "scene", "planner", "seed", "resume", "token"), _hello),
+    "hello": (("version", "scene", "sigma", "planner", "seed", "resume", "token"), _hello),
     "typed": (("text",), _typed),
     "typing": (("text",), _typing),
     "ray": (("head", "wrist"), _pointed),

@@ -21,10 +21,14 @@ from fetch_pomdp.errors import InputError
 from fetch_pomdp.extras import load
 
 EXTRA = "serve"
+# No script or style but our own files; only the server itself is talked to; no other site shows the page.
+POLICY = (
+    "default-src 'self'; img-src 'self' data:; object-src 'none'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'"
+)
+# A worker has the policy that it was served with: the one that runs the pose model may compile WebAssembly, the page not.
+POLICIES = {"/pose-worker.js": f"{POLICY}; script-src 'self' 'wasm-unsafe-eval'"}
 HEADERS = {
-    # No script or style but our own files; only the server itself is talked to; no other site shows the page.
-    "content-security-policy": "default-src 'self'; img-src 'self' data:; object-src 'none'; base-uri 'none'; "
-    "form-action 'none'; frame-ancestors 'none'",
     "x-content-type-options": "nosniff",
     "referrer-policy": "no-referrer",
     "cross-origin-opener-policy": "same-origin",
@@ -77,9 +81,11 @@ class Doorman:
         allowed = self._gate.host_allowed(host)
         app = self._app if allowed else responses.PlainTextResponse("unknown host", status_code=421)
 
+        headers = {"content-security-policy": POLICIES.get(scope["path"], POLICY), **HEADERS}
+
         async def guarded(message: Any) -> None:
             if message["type"] == "http.response.start":
-                extra = [(name.encode(), value.encode()) for name, value in HEADERS.items()]
+                extra = [(name.encode(), value.encode()) for name, value in headers.items()]
                 message = {**message, "headers": [*message["headers"], *extra]}
             await send(message)
 
