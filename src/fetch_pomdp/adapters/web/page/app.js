@@ -1,5 +1,6 @@
 // The page: what the server tells is shown, what the person says and shows is sent.
 
+import { Arm } from "./arm.js";
 import { Connection } from "./connection.js";
 import { Editor } from "./editor.js";
 import { vector } from "./geometry.js";
@@ -14,7 +15,7 @@ const ARM = 0.6; // m, from the head to the wrist of an arm that points
 const REPEAT = 80; // ms between rays while the person points
 const SHOWN = 1200; // ms that pointing by the keyboard lasts
 
-let scene = null, insight = true, latest = null, target = null, pointing = null, bubbleTimer = null, state = "connecting";
+let scene = null, insight = true, latest = null, target = null, pointing = null, pressed = false, begun = null, bubbleTimer = null, state = "connecting";
 
 setLanguage(chosenLanguage());
 $("#language").value = chosenLanguage();
@@ -24,6 +25,7 @@ const labels = new Labels($("#items"), (id) => pointAt(id));
 const mind = new Mind();
 const speech = new Speech(connection, (words) => say(words), (error) => show(text("no_microphone", { reason: error })));
 const editor = new Editor(stage, labels, (toml) => begin({ toml }));
+const arm = new Arm(stage, (place) => { if (!pressed && !editor.open) pointTo(place); }, () => { if (!pressed) endPointing(); }, () => begin(table()));
 
 function makeStage() {
   try {
@@ -37,7 +39,9 @@ function makeStage() {
 
 function begin(table) {
   $("#scene").value = typeof table === "string" ? table : "own";
-  connection.begin({ scene: table, planner: $("#planner").value, seed: Math.floor(Math.random() * 2 ** 31) });
+  if (JSON.stringify(table) !== begun) arm.forget();
+  begun = JSON.stringify(table);
+  connection.begin({ scene: table, sigma: arm.sigma, planner: $("#planner").value, seed: Math.floor(Math.random() * 2 ** 31) });
 }
 
 // What the server tells.
@@ -160,6 +164,7 @@ function announce(line) {
 function follow() {
   if (!scene) return;
   labels.follow(stage);
+  arm.follow();
   const { x, y } = stage.seen(stage.mouth());
   const half = $("#bubble").offsetWidth / 2 + 8, width = $("#stage").clientWidth;
   $("#bubble").style.transform = `translate(${Math.min(Math.max(x, half), width - half).toFixed(1)}px, ${Math.max(y, 76).toFixed(1)}px)`;
@@ -216,6 +221,7 @@ const placeOf = (event) => stage.at(event.offsetX, event.offsetY);
 view.addEventListener("pointerdown", (event) => {
   if (!scene || event.button) return;
   view.setPointerCapture(event.pointerId);
+  pressed = true;
   if (editor.open) editor.grab(placeOf(event));
   else pointTo(placeOf(event));
 });
@@ -223,7 +229,7 @@ view.addEventListener("pointermove", (event) => {
   if (editor.held) editor.drag(placeOf(event));
   else if (pointing !== null && event.buttons) pointTo(placeOf(event));
 });
-for (const kind of ["pointerup", "pointercancel"]) view.addEventListener(kind, () => { editor.drop(); if (pointing !== null) endPointing(); });
+for (const kind of ["pointerup", "pointercancel"]) view.addEventListener(kind, () => { pressed = false; editor.drop(); if (pointing !== null) endPointing(); });
 
 // The menu.
 
@@ -256,6 +262,7 @@ document.addEventListener("keydown", (event) => {
 $("#language").addEventListener("change", () => {
   setLanguage($("#language").value);
   changed(state);
+  arm.speak();
   if (scene) { labels.set(scene, insight); if (latest) believe(latest, false); editor.load(scene); stage?.draw(); }
   if (mind.decided) mind.decide(mind.decided);
 });

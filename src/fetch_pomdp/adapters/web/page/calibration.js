@@ -90,13 +90,9 @@ export class Stillness {
       this.#last = null;
       return null;
     }
-    const before = this.#seen.findLast(([at]) => at <= time - Stillness.STILL);
-    this.#seen = [...this.#seen.filter(([at]) => at > time - Stillness.STILL), [time, hand]];
-    if (!before || this.#seen.length < Stillness.LEAST) {
-      if (before) this.#seen.unshift(before);
-      return null;
-    }
-    this.#seen.unshift(before);
+    this.#seen.push([time, hand]);
+    while (this.#seen.length > 1 && this.#seen[1][0] <= time - Stillness.STILL) this.#seen.shift();
+    if (this.#seen.length < Stillness.LEAST || this.#seen[0][0] > time - Stillness.STILL) return null;
     const place = [0, 1].map((axis) => median(this.#seen.map(([, each]) => each[axis])));
     const far = (one, other) => Math.hypot(one[0] - other[0], one[1] - other[1]);
     if (this.#seen.some(([, each]) => far(each, place) > Stillness.WIDE)) return null;

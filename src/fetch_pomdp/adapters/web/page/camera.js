@@ -1,0 +1,97 @@
+// The webcam: its pictures go to the pose model in this browser, and nowhere else.
+
+const WIDTH = 320, HEIGHT = 240; // of the picture that the model is given, and of the preview
+const PAUSE = 40; // ms between pictures, at least
+const BONES = [[11, 12], [11, 13], [13, 15], [12, 14], [14, 16], [15, 19], [16, 20]];
+
+export class Camera {
+  #worker = null;
+  #stream = null;
+  #timer = null;
+
+  // seen: called with each picture's joints (or null); failed: with why there are no more pictures, or null if it was taken.
+  constructor(preview, seen, failed) {
+    this.preview = preview;
+    this.seen = seen;
+    this.failed = failed;
+    this.video = document.createElement("video");
+    this.video.muted = this.video.playsInline = true;
+    preview.width = WIDTH;
+    preview.height = HEIGHT;
+  }
+
+  get on() { return this.#stream !== null; }
+
+  async open() {
+    this.close();
+    try {
+      const stream = await navigator.mediaDevices.getUserMedia({ video: { width: { ideal: 640 }, height: { ideal: 480 }, facingMode: "user" } });
+      this.#stream = stream;
+      for (const track of stream.getTracks()) track.addEventListener("ended", () => this.#fail(null));
+      this.video.srcObject = stream;
+      await this.video.play();
+      this.#worker = new Worker("pose-worker.js");
+      this.#worker.onmessage = ({ data }) => this.#found(data);
+      this.#worker.onerror = ({ message }) => this.#fail(message);
+      await this.#look();
+    } catch (error) {
+      this.#fail(error.message);
+    }
+  }
+
+  close() {
+    clearTimeout(this.#timer);
+    this.#worker?.terminate();
+    for (const track of this.#stream?.getTracks() ?? []) track.stop();
+    this.#worker = this.#stream = null;
+    this.video.srcObject = null;
+    this.preview.getContext("2d").clearRect(0, 0, WIDTH, HEIGHT);
+  }
+
+  #fail(reason) {
+    this.close();
+    this.failed(reason);
+  }
+
+  // Give the model the next picture: the middle of it, in the preview's shape.
+  async #look() {
+    if (!this.#worker) return;
+    const { videoWidth: width, videoHeight: height } = this.video;
+    const shown = Math.min(width, (height * WIDTH) / HEIGHT), high = (shown * HEIGHT) / WIDTH;
+    this.asked = performance.now();
+    const cut = [(width - shown) / 2, (height - high) / 2, shown, high];
+    const picture = await createImageBitmap(this.video, ...cut, { resizeWidth: WIDTH, resizeHeight: HEIGHT });
+    this.#draw(picture);
+    this.#worker?.postMessage(picture, [picture]);
+  }
+
+  #found({ joints, error }) {
+    if (error) {
+      this.#fail(error);
+      return;
+    }
+    this.#bones(joints);
+    this.seen(joints, WIDTH / HEIGHT);
+    this.#timer = setTimeout(() => this.#look().catch((problem) => this.#fail(problem.message)), Math.max(0, this.asked + PAUSE - performance.now()));
+  }
+
+  // The preview is a mirror.
+  #draw(picture) {
+    const context = this.preview.getContext("2d");
+    context.setTransform(-1, 0, 0, 1, WIDTH, 0);
+    context.drawImage(picture, 0, 0);
+  }
+
+  #bones(joints) {
+    if (!joints) return;
+    const context = this.preview.getContext("2d");
+    context.lineWidth = 3;
+    context.strokeStyle = "#3fe0d4";
+    context.beginPath();
+    for (const [from, to] of BONES) {
+      context.moveTo(joints[from].x * WIDTH, joints[from].y * HEIGHT);
+      context.lineTo(joints[to].x * WIDTH, joints[to].y * HEIGHT);
+    }
+    context.stroke();
+  }
+}
