@@ -8,7 +8,8 @@ import { decimal, text } from "./texts.js";
 const $ = (selector) => document.querySelector(selector);
 const SLOW = 5; // pictures a second below which it is said
 const GONE = 3000; // ms without a person after which it is said
-const HELD = 300; // ms for which an arm must be up before it points
+const HELD = 300; // ms for which an arm must be up, and not on its way, before it points
+const FAST = 1.5; // shoulder widths a second: a hand that is as fast is on its way
 const HUNG = 1000; // ms without a picture after which an arm no longer points
 const OUTSIDE = 1.25; // of the picture's half: an arm that points farther out points at something else
 const SPREAD = 0.12; // m, at least, of the marks to each side of the items' middle
@@ -23,6 +24,8 @@ export class Arm {
   #values = {};
   #shape = null; // of the picture, when it was calibrated
   #upSince = null;
+  #lowered = false; // since the calibration: an arm that was up for that does not point yet
+  #before = null; // time and place of the hand in the picture before
   #personAt = 0;
   #rate = SLOW * 2;
   #lastAt = null;
@@ -148,6 +151,7 @@ export class Arm {
     this.#marks = null;
     this.follow();
     this.#map = found === null ? null : fit(this.#samples);
+    this.#lowered = false;
     this.#samples = [];
     const error = decimal(judged.error);
     if (found !== null) this.#say("arm_good", { error: decimal(found), degrees: Math.round((found * 180) / Math.PI) });
@@ -196,8 +200,9 @@ export class Arm {
       return;
     }
     if (this.#moved()) return this.forget();
-    const place = hand && this.#map(hand);
-    if (!place || place.some((part) => Math.abs(part) > OUTSIDE)) this.#end();
+    const place = hand && this.#map(hand), fast = this.#fast(now, hand);
+    if (!hand) this.#lowered = true;
+    if (!place || fast || !this.#lowered || place.some((part) => Math.abs(part) > OUTSIDE)) this.#end();
     else {
       this.#upSince ??= now;
       this.pointing = now - this.#upSince >= HELD;
@@ -205,6 +210,13 @@ export class Arm {
     }
     if (this.#rate < SLOW) this.#say("arm_slow");
     else this.#say("arm_good", { error: decimal(this.sigma), degrees: Math.round((this.sigma * 180) / Math.PI) });
+  }
+
+  #fast(now, hand) {
+    const before = this.#before;
+    this.#before = hand && { now, hand };
+    if (!hand || !before) return true;
+    return Math.hypot(hand[0] - before.hand[0], hand[1] - before.hand[1]) / (now - before.now) > FAST / 1000;
   }
 
   // A picture elsewhere on the screen is pointed at otherwise.
