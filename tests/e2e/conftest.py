@@ -75,10 +75,15 @@ class Person:
         self.page.set_default_timeout(PATIENCE)
         self.errors: list[str] = []
         self.strangers: list[str] = []
+        self.sent: list[str | bytes] = []  # over the WebSocket
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.on("websocket", lambda socket: socket.on("framesent", self._sent))
         self.page.on("request", lambda request: self._asked(request.url, address))
         self.page.goto(address)
         expect(self.page.locator("#state")).to_have_text("The robot is listening.", timeout=PATIENCE)
+
+    def _sent(self, message: str | bytes) -> None:
+        self.sent.append(message)
 
     def _asked(self, url: str, address: str) -> None:
         if not url.startswith((address, address.replace("http", "ws"), "data:", "blob:")):

@@ -87,9 +87,26 @@ def test_the_page_and_all_it_loads_are_in_the_package(client: TestClient) -> Non
         "worklet.js",
         "vendor/three.module.min.js",
         "vendor/three.core.min.js",
+        "vendor/pose/pose.js",
+        "vendor/pose/pose_landmark_lite.tflite",
+        "vendor/pose/pose_solution_simd_wasm_bin.wasm",
     ):
         assert client.get(f"/{name}").status_code == 200, name
     assert "http" not in page.text
+
+
+def test_only_the_worker_of_the_pose_model_may_compile_webassembly(client: TestClient) -> None:
+    policies = {
+        name: client.get(name).headers["content-security-policy"] for name in ("/", "/app.js", "/pose-worker.js")
+    }
+    allowed = {name for name, policy in policies.items() if "'wasm-unsafe-eval'" in policy}
+    assert allowed == {"/pose-worker.js"}
+    assert not any("'unsafe-eval'" in policy or "'unsafe-inline'" in policy for policy in policies.values())
+
+
+def test_a_calibrated_camera_sets_the_spread_of_pointing(house: House) -> None:
+    assert house.page(sigma=0.21).next("welcome")["scene"]["sigma"] == 0.21
+    assert house.page().next("welcome")["scene"]["sigma"] == 0.15
 
 
 def test_both_languages_have_every_text(client: TestClient) -> None:

@@ -12,11 +12,12 @@ LAMP_OFF = 1.0  # s
 UP, HELD = 2, 4  # times that each picture is shown in a row
 
 
-def write(path: Path, places: Sequence[str], *, rest: float = 4.0, held: float = 2.6) -> float:
+def write(path: Path, places: Sequence[str], *, rest: float = 4.0, held: float = 2.6, between: float = 0.4) -> float:
     """Write a film in which the person rests, and then points at places, one after the other; return its length in s.
 
-    rest: s before the first place and after the last; held: s for which each is pointed at. A lamp is on from the
-    film's beginning until LAMP_OFF s before the first place, so that a test knows where the film is.
+    rest: s before the first place and after the last; held: s for which each is pointed at; between: s for which the
+    arm is down after each. A lamp is on from the film's beginning until LAMP_OFF s before the first place, so that a
+    test knows where the film is.
     """
     index, raw = json.loads(INDEX.read_text()), FRAMES.read_bytes()
     ends = [sum(index["lengths"][: number + 1]) for number in range(len(index["lengths"]))]
@@ -27,7 +28,7 @@ def write(path: Path, places: Sequence[str], *, rest: float = 4.0, held: float =
         up, arms = (pictures[slice(*index["shown"][place][kind])] for kind in ("up", "held"))
         raising = [picture for picture in up for _ in range(UP)]
         holding = [arms[number // HELD % len(arms)] for number in range(round(held * RATE))]
-        shown += [*raising, *holding, *reversed(raising), *([pictures[0]] * 10)]
+        shown += [*raising, *holding, *reversed(raising), *([pictures[0]] * round(between * RATE))]
     shown += [pictures[0]] * round(rest * RATE)
     path.write_bytes(b"".join(shown))
     return len(shown) / RATE

@@ -112,7 +112,9 @@ def pointing(body: Body, target: Array, share: float = 1.0) -> Array:
 
 
 def _lengths(body: Body, side: str) -> tuple[float, float]:
-    shoulder, elbow, wrist, finger = (body.joints[f"{bone}_{side}"] for bone in ("upperarm", "lowerarm", "hand", "index_03"))
+    shoulder, elbow, wrist, finger = (
+        body.joints[f"{bone}_{side}"] for bone in ("upperarm", "lowerarm", "hand", "index_03")
+    )
     hand = float(np.linalg.norm(finger - wrist)) * 1.25  # to the tip
     return float(np.linalg.norm(elbow - shoulder)), float(np.linalg.norm(wrist - elbow)) + hand
 
@@ -139,7 +141,10 @@ def _arm(body: Body, side: str, goal: Array, *, pointed: bool = False) -> dict[s
     sag -= way * (sag @ way)
     elbow = at[0] + along * way + np.sqrt(upper**2 - along**2) * sag / np.linalg.norm(sag)
     fore = at[0] + reach * way - elbow
-    turns = {f"upperarm_{side}": _shortest(at[1] - at[0], elbow - at[0]), f"lowerarm_{side}": _shortest(at[2] - at[1], fore)}
+    turns = {
+        f"upperarm_{side}": _shortest(at[1] - at[0], elbow - at[0]),
+        f"lowerarm_{side}": _shortest(at[2] - at[1], fore),
+    }
     if pointed:
         turns[f"hand_{side}"] = _shortest(at[3] - at[2], fore)
         for one, other in ((3, 4), (4, 5)):

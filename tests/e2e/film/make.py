@@ -61,7 +61,9 @@ def colours(body: Body) -> Array:
     brows = head & (np.abs(at[:, 1] - 0.022) < 0.005) & (np.abs(np.abs(at[:, 0]) - 0.032) < 0.018) & (at[:, 2] < 0.03)
     lips = head & (np.abs(at[:, 1] + 0.068) < 0.009) & (np.abs(at[:, 0]) < 0.022) & (at[:, 2] < -0.01)
     sleeves = body.weights["upperarm_l"] + body.weights["upperarm_r"]
-    trunk = sum(body.weights[f"{bone}"] for bone in ("spine_01", "spine_02", "spine_03", "clavicle_l", "clavicle_r", "pelvis"))
+    trunk = sum(
+        body.weights[f"{bone}"] for bone in ("spine_01", "spine_02", "spine_03", "clavicle_l", "clavicle_r", "pelvis")
+    )
     shirt = (trunk + sleeves > 0.6) & (body.vertices[:, 1] < joints["neck_01"][1] + 0.005)
     found[hair] = found[brows] = [0.07, 0.05, 0.04]
     found[lips] = [0.6, 0.25, 0.22]

@@ -26,7 +26,7 @@ POLICY = (
     "default-src 'self'; img-src 'self' data:; object-src 'none'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'"
 )
-# A worker has the policy that it was served with: the one that runs the pose model may compile WebAssembly, the page not.
+# A worker has the policy it was served with: the one that runs the pose model may compile WebAssembly, the page not.
 POLICIES = {"/pose-worker.js": f"{POLICY}; script-src 'self' 'wasm-unsafe-eval'"}
 HEADERS = {
     "x-content-type-options": "nosniff",
