@@ -16,8 +16,8 @@ export class Camera {
     this.failed = failed;
     this.video = document.createElement("video");
     this.video.muted = this.video.playsInline = true;
-    preview.width = WIDTH;
-    preview.height = HEIGHT;
+    this.looked = document.createElement("canvas"); // the picture that the model looks at
+    for (const canvas of [preview, this.looked]) Object.assign(canvas, { width: WIDTH, height: HEIGHT });
   }
 
   get on() { return this.#stream !== null; }
@@ -61,7 +61,7 @@ export class Camera {
     this.asked = performance.now();
     const cut = [(width - shown) / 2, (height - high) / 2, shown, high];
     const picture = await createImageBitmap(this.video, ...cut, { resizeWidth: WIDTH, resizeHeight: HEIGHT });
-    this.#draw(picture);
+    this.looked.getContext("2d").drawImage(picture, 0, 0);
     this.#worker?.postMessage(picture, [picture]);
   }
 
@@ -70,22 +70,19 @@ export class Camera {
       this.#fail(error);
       return;
     }
-    this.#bones(joints);
+    this.#draw(joints);
     this.seen(joints, WIDTH / HEIGHT);
     this.#timer = setTimeout(() => this.#look().catch((problem) => this.#fail(problem.message)), Math.max(0, this.asked + PAUSE - performance.now()));
   }
 
   // The preview is a mirror.
-  #draw(picture) {
+  #draw(joints) {
     const context = this.preview.getContext("2d");
     context.setTransform(-1, 0, 0, 1, WIDTH, 0);
-    context.drawImage(picture, 0, 0);
-  }
-
-  #bones(joints) {
+    context.drawImage(this.looked, 0, 0);
     if (!joints) return;
-    const context = this.preview.getContext("2d");
-    context.lineWidth = 3;
+    context.lineWidth = 4;
+    context.lineCap = "round";
     context.strokeStyle = "#3fe0d4";
     context.beginPath();
     for (const [from, to] of BONES) {
