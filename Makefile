@@ -30,6 +30,7 @@ check-all: test
 
 screenshots: .venv/tested
 	$(BIN)/python docs/make_screenshots.py
+	$(BIN)/python -m tests.e2e.film.measure docs/serve-arm.png
 
 bench: .venv/tested
 	$(BIN)/pip install -q -r requirements/bench.txt

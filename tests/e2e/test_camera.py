@@ -35,17 +35,28 @@ navigator.mediaDevices.getUserMedia = async (wanted) => {
   return window.streams.at(-1);
 };
 """
+# Lets each of the pose model's answers take half a second.
+SLUGGISH = """
+const Quick = window.Worker;
+window.Worker = class extends Quick {
+  set onmessage(heard) { super.onmessage = (event) => setTimeout(() => heard(event), 500); }
+};
+"""
 UNPLUG = "() => window.streams.flatMap((s) => s.getTracks()).forEach((t) => t.dispatchEvent(new Event('ended')))"
 
 
 @contextmanager
 def before_camera(
-    server: Server, chromium: Callable[..., Browser], *flags: str, permissions: Sequence[str] = ("camera",)
+    server: Server,
+    chromium: Callable[..., Browser],
+    *flags: str,
+    permissions: Sequence[str] = ("camera",),
+    script: str = STREAMS,
 ) -> Iterator[Person]:
     """A person before the table with the twins far apart, whose camera is on."""
     with chromium(*flags) as browser:
         context = browser.new_context(viewport={"width": 1280, "height": 800}, permissions=permissions, locale="en")
-        context.add_init_script(STREAMS)
+        context.add_init_script(script)
         person = Person(context, server.address)
         person.find("#options").click()
         person.find("#scene").select_option("unambiguous")
@@ -137,6 +148,14 @@ def test_a_camera_that_sees_nobody_and_is_pulled_out_ends_nothing(
         person.find("#camera-off").click()
         expect(person.find("#camera")).to_be_hidden()
         point_with_the_mouse(person, "spoon-1")
+
+
+def test_two_hands_and_few_pictures_are_said(server: Server, chromium: Callable[..., Browser], tmp_path: Path) -> None:
+    flags = film_of(["both", "both"], tmp_path)
+    with before_camera(server, chromium, *flags, script=SLUGGISH) as person:
+        said(person).to_contain_text("Both hands are up. Lower one.", timeout=PATIENCE)
+        expect(person.find("#camera-slow")).to_contain_text("few pictures a second", timeout=PATIENCE)
+        point_with_the_mouse(person, "marker-1")
 
 
 def test_a_camera_that_is_refused_is_said(server: Server, chromium: Callable[..., Browser]) -> None:

