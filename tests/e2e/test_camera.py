@@ -44,6 +44,8 @@ window.Worker = class extends Quick {
 """
 UNPLUG = "() => window.streams.flatMap((s) => s.getTracks()).forEach((t) => t.dispatchEvent(new Event('ended')))"
 
+CLOSED = "() => window.streams.flatMap((s) => s.getTracks()).every((t) => t.readyState === 'ended')"
+
 
 @contextmanager
 def before_camera(
@@ -147,6 +149,7 @@ def test_a_camera_that_sees_nobody_and_is_pulled_out_ends_nothing(
         expect(person.find("#calibrate")).to_be_disabled()
         person.find("#camera-off").click()
         expect(person.find("#camera")).to_be_hidden()
+        assert person.page.evaluate(CLOSED)
         point_with_the_mouse(person, "spoon-1")
 
 

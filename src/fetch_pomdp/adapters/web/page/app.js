@@ -40,7 +40,6 @@ function makeStage() {
 function begin(table) {
   $("#scene").value = typeof table === "string" ? table : "own";
   if (JSON.stringify(table) !== begun) arm.forget();
-  begun = JSON.stringify(table);
   connection.begin({ scene: table, sigma: arm.sigma, planner: $("#planner").value, seed: Math.floor(Math.random() * 2 ** 31) });
 }
 
@@ -75,6 +74,7 @@ function welcome(message) {
   mind.set(scene);
   stage?.set(scene);
   editor.load(scene);
+  begun = JSON.stringify(table());
   message.past.forEach((event) => mind.tell(event));
   if (message.belief) believe(message.belief, false);
   if (message.picked) ended(message);

@@ -30,7 +30,8 @@ export class Arm {
   #rate = QUICK;
   #lastAt = null;
 
-  // point: called with the place that is pointed at; release: when nothing is any more; calibrated: when sigma has changed.
+  // point: called with the place that is pointed at; release: when nothing is any more; calibrated: when
+  // the arm has another spread, `sigma`, with which an interaction is to begin.
   constructor(stage, point, release, calibrated) {
     Object.assign(this, { stage, point, release, calibrated, sigma: null, pointing: false });
     this.camera = new Camera($("#preview"), (joints, aspect) => this.#saw(joints, aspect), (reason) => this.#failed(reason));
@@ -44,6 +45,7 @@ export class Arm {
   // The language has changed.
   speak() {
     if (this.#state) this.#say(this.#state, this.#values);
+    if ($("#camera-slow").textContent) $("#camera-slow").textContent = text("arm_slow");
   }
 
   // The table is another one.
@@ -74,8 +76,7 @@ export class Arm {
       await this.camera.open();
     } else {
       this.camera.close();
-      this.#state = null;
-      this.#set(null);
+      this.#state = this.sigma = null; // from the next interaction on
     }
   }
 
@@ -99,12 +100,6 @@ export class Arm {
     if ($("#camera-state").textContent !== line) $("#camera-state").textContent = line;
     $("#calibrate").disabled = !this.camera.on || key === "arm_opening";
     $("#calibrate").textContent = text(this.#marks || this.#map ? "calibrate_again" : "calibrate");
-  }
-
-  #set(now) {
-    const changed = this.sigma !== now;
-    this.sigma = now;
-    if (changed) this.calibrated();
   }
 
   #drop() {
@@ -158,7 +153,9 @@ export class Arm {
     const error = decimal(judged.error);
     if (found !== null) this.#say("arm_good", { error: decimal(found), degrees: Math.round((found * 180) / Math.PI) });
     else this.#say(judged.error > LARGEST ? "arm_coarse" : "arm_blind", { error, most: decimal(LARGEST), guess: decimal(judged.guess) });
-    this.#set(found);
+    const before = this.sigma;
+    this.sigma = found;
+    if (found !== null && found !== before) this.calibrated();
   }
 
   // Places in the picture, from -1 to 1 each way, and the table's beneath them.
@@ -240,6 +237,9 @@ export class Arm {
 
   // An arm does not point on while no pictures come.
   #watch() {
-    if (this.pointing && performance.now() - this.#lastAt > HUNG) this.#end();
+    if (!this.camera.on || this.#lastAt === null || performance.now() - this.#lastAt < HUNG) return;
+    this.#rate = 0;
+    $("#camera-slow").textContent = text("arm_slow");
+    this.#end();
   }
 }

@@ -8,6 +8,7 @@ export class Camera {
   #worker = null;
   #stream = null;
   #timer = null;
+  #wanted = null; // what open() waits for; another once it was closed meanwhile
 
   // seen: called with each picture's joints (or null); failed: with why there are no more pictures, or null if it was taken.
   constructor(preview, seen, failed) {
@@ -24,18 +25,25 @@ export class Camera {
 
   async open() {
     this.close();
+    const wanted = {};
+    this.#wanted = wanted;
     try {
       const stream = await navigator.mediaDevices.getUserMedia({ video: { width: { ideal: 640 }, height: { ideal: 480 }, facingMode: "user" } });
+      if (this.#wanted !== wanted) {
+        for (const track of stream.getTracks()) track.stop();
+        return;
+      }
       this.#stream = stream;
       for (const track of stream.getTracks()) track.addEventListener("ended", () => this.#fail(null));
       this.video.srcObject = stream;
       await this.video.play();
+      if (this.#wanted !== wanted) return;
       this.#worker = new Worker("pose-worker.js");
       this.#worker.onmessage = ({ data }) => this.#found(data);
       this.#worker.onerror = ({ message }) => this.#fail(message);
       await this.#look();
     } catch (error) {
-      this.#fail(error.message);
+      if (this.#wanted === wanted) this.#fail(error.message);
     }
   }
 
@@ -43,7 +51,7 @@ export class Camera {
     clearTimeout(this.#timer);
     this.#worker?.terminate();
     for (const track of this.#stream?.getTracks() ?? []) track.stop();
-    this.#worker = this.#stream = null;
+    this.#worker = this.#stream = this.#wanted = null;
     this.video.srcObject = null;
     this.preview.getContext("2d").clearRect(0, 0, WIDTH, HEIGHT);
   }
@@ -66,12 +74,14 @@ export class Camera {
   }
 
   #found({ joints, error }) {
+    if (!this.on) return;
     if (error) {
       this.#fail(error);
       return;
     }
     this.#draw(joints);
-    this.seen(joints, WIDTH / HEIGHT);
+    const frozen = this.#stream.getVideoTracks()[0].muted; // no new pictures come: the arm in the last one is down by now
+    this.seen(frozen ? null : joints, WIDTH / HEIGHT);
     this.#timer = setTimeout(() => this.#look().catch((problem) => this.#fail(problem.message)), Math.max(0, this.asked + PAUSE - performance.now()));
   }
 
