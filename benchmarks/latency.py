@@ -1,0 +1,194 @@
+"""How long a served robot takes: a real server, people on WebSockets, sound at the pace at which it is heard.
+
+    python benchmarks/latency.py [--json] [--snr 20] [--cache FOLDER]            # 4 minutes; Linux
+    python benchmarks/latency.py --people 50 --speakers 10 --seconds 120         # the second part alone
+
+1. One person speaks, alone on the server: from the end of a word to the arrival of the belief message that it moves.
+2. Fifty at once: ten speak a fifth of the time into open microphones, the others type and point. The same delays; how
+   long a decision takes, from the step's end to what is told of the decision, both by the server's clock in its
+   messages; memory. The people run in one process beside the server, on the same cores: what that takes is told, too.
+
+A word's end is where a forced alignment of the clean recording puts it, and not what the recogniser believes; words
+count that are about an item or answer a question. One that was not heard within 3 s counts as missed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import os
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sayings import say_all
+from serving import Served, Spent
+from visitors import KINDS, SENTENCES, Speaker, Stay, Visitor
+from voices import missing_tools
+
+VOICES = ("espeak-en-us-175", "flite-slt", "espeak-en-gb-130", "flite-rms")
+TEXTS = (*SENTENCES, "yes", "no")
+MOVING = frozenset([*KINDS, *KINDS.values(), "yes", "no"])  # words that move a bar
+LEAST = 0.005  # change of a belief that a bar shows
+MISSED = 3.0  # s
+SHARE = 0.2  # of the time that a speaker speaks
+
+
+@dataclass(frozen=True, slots=True)
+class Delays:
+    """Delays of the words that moved a bar (s), and how many words were never heard."""
+
+    moved: list[float]
+    missed: int
+
+
+def word_delays(stays: Sequence[Stay]) -> Delays:
+    """Return how long after its end each word moved a bar; one that is heard and moves none does not count."""
+    delays, missed = [], 0
+    for stay in stays:
+        beliefs = stay.messages("belief")
+        for said in stay.said:
+            if said.word not in MOVING or said.end + MISSED > stay.told[-1].at:
+                continue  # no matter of a bar, or the interaction was over
+            heard = [
+                (before.message["belief"], told)
+                for before, told in zip(beliefs, beliefs[1:], strict=False)
+                if said.start <= told.at <= said.end + MISSED and said.word in told.message["heard"]
+            ]
+            missed += not heard
+            moved = (told.at for before, told in heard if _change(before, told.message["belief"]) >= LEAST)
+            delays += [at - said.end for at in [next(moved, None)] if at is not None]
+    return Delays(delays, missed)
+
+
+def _change(before: dict[str, float], after: dict[str, float]) -> float:
+    return max(abs(after[item] - before[item]) for item in after)
+
+
+def decision_times(stays: Sequence[Stay]) -> list[float]:
+    """Return how long (s) each decision took, by the server's clock: from the step's end to what is told of it."""
+    times = []
+    for stay in stays:
+        ended = None
+        for message in (told.message for told in stay.told):
+            if message["type"] == "belief" and not message["provisional"]:
+                ended = message["t"]
+            elif message["type"] == "decided" and ended is not None:
+                times.append(message["t"] - ended)
+                ended = None
+    return times
+
+
+def delivery_times(stays: Sequence[Stay]) -> list[float]:
+    """Return by how much (s) later than the promptest of its interaction each decision was told."""
+    times = []
+    for stay in stays:
+        lags = [told.at - told.message["t"] for told in stay.messages("decided")]
+        times += [lag - min(lags) for lag in lags]
+    return times
+
+
+def summary(values: Sequence[float]) -> dict[str, float]:
+    """Return count, median, p90, p99 and maximum (s)."""
+    quantiles = {name: float(np.quantile(values, q)) if values else float("nan") for name, q in _QUANTILES.items()}
+    return {"count": len(values), **{name: round(value, 4) for name, value in quantiles.items()}}
+
+
+_QUANTILES = {"median": 0.5, "p90": 0.9, "p99": 0.99, "longest": 1.0}
+
+
+def outcome(stays: Sequence[Stay]) -> dict[str, Any]:
+    """Return what came of interactions."""
+    over = [stay for stay in stays if stay.picked is not None]
+    delays = word_delays(stays)
+    return {
+        "interactions": len(stays),
+        "handed_over": len(over),
+        "right": sum(stay.picked == stay.wanted for stay in over),
+        "word_to_bar_s": {**summary(delays.moved), "missed": delays.missed},
+        "decision_s": summary(decision_times(stays)),
+        "decision_told_late_s": summary(delivery_times(stays)),
+    }
+
+
+async def alone(host: str, seconds: float, snr: int, folder: Path) -> dict[str, Any]:
+    """Let one person after the other speak, each alone on the server."""
+    stays: list[Stay] = []
+    for seed, voice in enumerate(VOICES):
+        speaker = Speaker(host, seed, say_all(TEXTS, voice, snr, folder), share=1.0)
+        await speaker.come_and_go(time.monotonic() + seconds / len(VOICES))
+        stays += speaker.stays
+    return outcome(stays)
+
+
+async def crowd(served: Served, options: argparse.Namespace, before: Spent) -> dict[str, Any]:
+    """Let all come, the speakers first; return what was measured."""
+    sayings = {voice: say_all(TEXTS, voice, options.snr, options.cache) for voice in VOICES}
+    speakers = [
+        Speaker(served.host, seed, sayings[VOICES[seed % len(VOICES)]], SHARE) for seed in range(options.speakers)
+    ]
+    typists = [Visitor(served.host, seed) for seed in range(options.speakers, options.people)]
+    until = time.monotonic() + options.seconds
+    async with asyncio.TaskGroup() as group:
+        for visitor in speakers:
+            group.create_task(visitor.come_and_go(until))
+        await asyncio.sleep(min(20.0, options.seconds / 4))
+        few = served.spent()
+        for visitor in typists:
+            group.create_task(visitor.come_and_go(until))
+        await asyncio.gather(*(visitor.here.wait() for visitor in typists))
+        begun, cpu, own = time.monotonic(), served.spent().cpu, time.process_time()
+        await asyncio.sleep(max(0.0, until - time.monotonic() - 2.0))
+        many = served.spent()
+        spent = time.monotonic() - begun
+        took, own = many.cpu - cpu, time.process_time() - own
+    return {
+        "memory_mb": {"0": before.memory, str(options.speakers): few.memory, str(options.people): many.memory},
+        "cores": {"server": round(took / spent, 2), "people": round(own / spent, 2)},
+        "speakers": outcome([stay for visitor in speakers for stay in visitor.stays]),
+        "typists": outcome([stay for visitor in typists for stay in visitor.stays]),
+        "all": {"decision_s": summary(decision_times([s for v in (*speakers, *typists) for s in v.stays]))},
+    }
+
+
+async def measure(options: argparse.Namespace) -> dict[str, Any]:
+    """Measure one person, then many."""
+    options.cache.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as data, Served("--data", data) as served:
+        found: dict[str, Any] = {"load_before": os.getloadavg()[0], "snr": options.snr}
+        await Visitor(served.host, 0).interact()  # the planner is compiled, the table solved
+        if options.alone:
+            found["alone"] = await alone(served.host, options.alone, options.snr, options.cache)
+        else:
+            await Speaker(served.host, 0, say_all(TEXTS, VOICES[0], options.snr, options.cache), 1.0).interact()
+        if options.people:
+            found["people"] = options.people
+            found["crowd"] = await crowd(served, options, served.spent())
+    return found
+
+
+def main() -> None:
+    """Measure, and print lines or JSON."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--alone", type=float, default=80.0, metavar="SECONDS", help="0: leave out the first part")
+    parser.add_argument("--people", type=int, default=50, help="0: leave out the second part")
+    parser.add_argument("--speakers", type=int, default=10)
+    parser.add_argument("--seconds", type=float, default=120.0, help="of the second part")
+    parser.add_argument("--snr", type=int, default=20, help="dB")
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--cache", type=Path, default=Path(tempfile.gettempdir()) / "fetch-pomdp-voices")
+    options = parser.parse_args()
+    if missing := missing_tools():
+        parser.error(f"not installed: {', '.join(missing)}; install with: apt install {' '.join(missing)}")
+    found = asyncio.run(measure(options))
+    print(json.dumps(found, indent=None if options.json else 2))
+
+
+if __name__ == "__main__":
+    main()
