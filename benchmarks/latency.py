@@ -1,10 +1,12 @@
 """How long a served robot takes: a real server, people on WebSockets, sound at the pace at which it is heard.
 
-    python benchmarks/latency.py [--json] [--snr 20] [--cache FOLDER]            # 4 minutes; Linux
-    python benchmarks/latency.py --people 50 --speakers 10 --seconds 120         # the second part alone
+    python benchmarks/latency.py [--json] [--snr 20] [--cache FOLDER]     # 8 minutes; Linux, apt install chromium
+    python benchmarks/latency.py --alone 0 --no-page --people 50            # the last part alone
 
 1. One person speaks, alone on the server: from the end of a word to the arrival of the belief message that it moves.
-2. Fifty at once: ten speak a fifth of the time into open microphones, the others type and point. The same delays; how
+2. The page in Chromium, whose fake microphone plays sentences: from the end of an item's word, in the sound as it
+   leaves the page, to the change of the bars in the document. What a real microphone and screen take comes on top.
+3. Fifty at once: ten speak a fifth of the time into open microphones, the others type and point. The same delays; how
    long a decision takes, from the step's end to what is told of the decision, both by the server's clock in its
    messages; memory. The people run in one process beside the server, on the same cores: what that takes is told, too.
 
@@ -21,16 +23,17 @@ import os
 import tempfile
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from sayings import say_all
+from sayings import say, say_all
 from serving import Served, Spent
 from visitors import KINDS, SENTENCES, Speaker, Stay, Visitor
 from voices import missing_tools
+from watched import Delays, watch
 
 VOICES = ("espeak-en-us-175", "flite-slt", "espeak-en-gb-130", "flite-rms")
 TEXTS = (*SENTENCES, "yes", "no")
@@ -38,14 +41,6 @@ MOVING = frozenset([*KINDS, *KINDS.values(), "yes", "no"])  # words that move a 
 LEAST = 0.005  # change of a belief that a bar shows
 MISSED = 3.0  # s
 SHARE = 0.2  # of the time that a speaker speaks
-
-
-@dataclass(frozen=True, slots=True)
-class Delays:
-    """Delays of the words that moved a bar (s), and how many words were never heard."""
-
-    moved: list[float]
-    missed: int
 
 
 def word_delays(stays: Sequence[Stay]) -> Delays:
@@ -58,7 +53,7 @@ def word_delays(stays: Sequence[Stay]) -> Delays:
                 continue  # no matter of a bar, or the interaction was over
             heard = [
                 (before.message["belief"], told)
-                for before, told in zip(beliefs, beliefs[1:], strict=False)
+                for before, told in pairwise(beliefs)
                 if said.start <= told.at <= said.end + MISSED and said.word in told.message["heard"]
             ]
             missed += not heard
@@ -111,7 +106,7 @@ def outcome(stays: Sequence[Stay]) -> dict[str, Any]:
         "interactions": len(stays),
         "handed_over": len(over),
         "right": sum(stay.picked == stay.wanted for stay in over),
-        "word_to_bar_s": {**summary(delays.moved), "missed": delays.missed},
+        "word_to_bar_s": {**summary(delays.delays), "missed": delays.missed},
         "decision_s": summary(decision_times(stays)),
         "decision_told_late_s": summary(delivery_times(stays)),
     }
@@ -130,7 +125,7 @@ async def alone(host: str, seconds: float, snr: int, folder: Path) -> dict[str, 
 async def crowd(served: Served, options: argparse.Namespace, before: Spent) -> dict[str, Any]:
     """Let all come, the speakers first; return what was measured."""
     sayings = {voice: say_all(TEXTS, voice, options.snr, options.cache) for voice in VOICES}
-    speakers = [
+    speakers: list[Visitor] = [
         Speaker(served.host, seed, sayings[VOICES[seed % len(VOICES)]], SHARE) for seed in range(options.speakers)
     ]
     typists = [Visitor(served.host, seed) for seed in range(options.speakers, options.people)]
@@ -167,6 +162,12 @@ async def measure(options: argparse.Namespace) -> dict[str, Any]:
             found["alone"] = await alone(served.host, options.alone, options.snr, options.cache)
         else:
             await Speaker(served.host, 0, say_all(TEXTS, VOICES[0], options.snr, options.cache), 1.0).interact()
+        if options.page:
+            sayings = [
+                say(f"hand me the {kind}", voice, options.snr, options.cache) for voice in VOICES for kind in KINDS
+            ]
+            watched = await watch(served.host, sayings, Path(data))
+            found["page_word_to_bar_s"] = {**summary(watched.delays), "missed": watched.missed}
         if options.people:
             found["people"] = options.people
             found["crowd"] = await crowd(served, options, served.spent())
@@ -177,9 +178,10 @@ def main() -> None:
     """Measure, and print lines or JSON."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--alone", type=float, default=80.0, metavar="SECONDS", help="0: leave out the first part")
-    parser.add_argument("--people", type=int, default=50, help="0: leave out the second part")
+    parser.add_argument("--page", action=argparse.BooleanOptionalAction, default=True, help="the second part")
+    parser.add_argument("--people", type=int, default=50, help="0: leave out the third part")
     parser.add_argument("--speakers", type=int, default=10)
-    parser.add_argument("--seconds", type=float, default=120.0, help="of the second part")
+    parser.add_argument("--seconds", type=float, default=120.0, help="of the third part")
     parser.add_argument("--snr", type=int, default=20, help="dB")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--cache", type=Path, default=Path(tempfile.gettempdir()) / "fetch-pomdp-voices")
