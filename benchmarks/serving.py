@@ -21,6 +21,8 @@ class Spent:
 
     memory: float  # MB; pages that processes share count once (Pss)
     cpu: float  # s
+    threads: int
+    files: int  # that are open, connections too
 
 
 class Served:
@@ -59,7 +61,9 @@ class Served:
     def spent(self) -> Spent:
         """Return what the server and its children have taken so far."""
         family = [self._process.pid, *_children(self._process.pid)]
-        return Spent(sum(map(_memory, family)), sum(map(_cpu, family)))
+        folders = [PROC / str(pid) for pid in family]
+        threads, files = (sum(len(list((at / kind).iterdir())) for at in folders) for kind in ("task", "fd"))
+        return Spent(sum(map(_memory, folders)), sum(map(_cpu, folders)), threads, files)
 
 
 def _children(pid: int) -> list[int]:
@@ -67,11 +71,11 @@ def _children(pid: int) -> list[int]:
     return [int(child) for task in tasks for child in (task / "children").read_text().split()]
 
 
-def _memory(pid: int) -> float:
-    lines = (PROC / str(pid) / "smaps_rollup").read_text().splitlines()
+def _memory(folder: Path) -> float:
+    lines = (folder / "smaps_rollup").read_text().splitlines()
     return sum(int(line.split()[1]) for line in lines if line.startswith("Pss:")) / 1024
 
 
-def _cpu(pid: int) -> float:
-    fields = (PROC / str(pid) / "stat").read_text().rpartition(")")[2].split()
+def _cpu(folder: Path) -> float:
+    fields = (folder / "stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / TICKS

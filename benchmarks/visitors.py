@@ -68,10 +68,11 @@ class Stay:
 
 
 class Visitor:
-    """Somebody who types and points."""
+    """Somebody who types and points. name: a word that nobody else types."""
 
     def __init__(self, host: str, seed: int) -> None:
         self._host, self._rng = host, np.random.default_rng(seed)
+        self.name = f"visitor{seed}"
         self.stays: list[Stay] = []
         self.here = asyncio.Event()  # whether the server has said welcome once
 
@@ -122,7 +123,7 @@ class Visitor:
     async def _ask(self, line: ClientConnection, stay: Stay) -> None:
         kind = stay.wanted.partition("-")[0]
         form = str(self._rng.choice(REQUESTS))
-        await self._say(line, stay, form.format(kind=kind, colour=KINDS[kind]))
+        await self._say(line, stay, f"{form.format(kind=kind, colour=KINDS[kind])}, says {self.name}")
         if self._rng.random() < 0.5:
             await self._point(line, stay)
 
