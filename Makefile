@@ -53,11 +53,12 @@ picture: .venv/installed
 	@$(BIN)/pip install -q --disable-pip-version-check -r requirements/test.txt
 	@touch $@
 
-# Pins without registry addresses; needs uv.
+# Pins without registry addresses, the same in all files; needs uv.
+PIN = uv pip compile pyproject.toml --universal --no-header --no-annotate -q
 requirements:
-	uv pip compile pyproject.toml --universal --extra speech --extra serve --no-header --no-annotate -q -o requirements/run.txt
-	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group browser --no-header --no-annotate -q -o requirements/test.txt
-	uv pip compile pyproject.toml --universal $(EXTRAS) --group dev --group browser --group bench --no-header --no-annotate -q -o requirements/bench.txt
+	$(PIN) $(EXTRAS) --group dev --group browser --group bench -o requirements/bench.txt
+	$(PIN) $(EXTRAS) --group dev --group browser -c requirements/bench.txt -o requirements/test.txt
+	$(PIN) --extra speech --extra serve -c requirements/bench.txt -o requirements/run.txt
 
 clean:
 	rm -rf .venv .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
