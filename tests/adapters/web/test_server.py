@@ -109,6 +109,14 @@ def test_a_calibrated_camera_sets_the_spread_of_pointing(house: House) -> None:
     assert house.page().next("welcome")["scene"]["sigma"] == 0.15
 
 
+def test_a_page_is_told_the_table_to_begin_with(client: TestClient) -> None:
+    assert client.get("/table.json").json() == {"scene": "ambiguous"}
+    own = {"toml": 'head = [0, 0, 1.6]\n[[items]]\nid = "cup"\nposition = [0, 3, 0.7]\nvocabulary = ["cup"]\n'}
+    with house_of(Config(scene=own)) as house:
+        welcome = house.page(**house.client.get("/table.json").json()).next("welcome")
+        assert [item["id"] for item in welcome["scene"]["items"]] == ["cup"]
+
+
 def test_both_languages_have_every_text(client: TestClient) -> None:
     texts = client.get("/texts.json").json()
     assert texts["en"].keys() == texts["de"].keys()

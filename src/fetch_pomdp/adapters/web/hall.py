@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,8 +29,12 @@ PENALTY = 1.0  # s a wrong token costs, so that nobody guesses often
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Config:
-    """How a server serves. token: what a page must know, None on loopback; data: a folder for the journals."""
+    """How a server serves. token: what a page must know, None on loopback; data: a folder for the journals.
 
+    scene: the table that pages begin with, as they ask for it: a name or {"toml": "..."}.
+    """
+
+    scene: str | Mapping[str, str] = "ambiguous"
     token: str | None = None
     data: Path | None = None
     insight: bool = True  # whether a person may see what the robot believes and why it acts

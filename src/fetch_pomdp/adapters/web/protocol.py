@@ -23,7 +23,7 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.documents import parse_toml
+from fetch_pomdp.documents import parse_toml, read_text
 from fetch_pomdp.errors import MessageError, SceneError
 
 VERSION = 1
@@ -140,6 +140,22 @@ def _lively(data: Mapping[str, Any]) -> Scene:
     """Build a scene; where it does not say how often people speak and point, they do as live ones."""
     model = data.get("model", {})
     return Scene.from_mapping({**data, "model": {**LIVE_MODEL, **model} if isinstance(model, Mapping) else model})
+
+
+def scene_asked_for(name_or_path: str) -> str | dict[str, str]:
+    """Return how a page asks for a built-in scene or for one in a TOML file.
+
+    Raises SceneError or ModelError, with file, line and field, for what is no scene or too large for a page.
+    """
+    scene = Scene.load(name_or_path)
+    if name_or_path in LAYOUTS:
+        return name_or_path
+    if len(scene.items) > MOST_ITEMS:
+        raise SceneError(f"found {len(scene.items)}, expected at most {MOST_ITEMS}", field="items", source=name_or_path)
+    text = read_text(name_or_path, SceneError)
+    if len(json.dumps(text).encode()) > LARGEST_MESSAGE // 2:
+        raise SceneError(f"found a larger file, expected at most {LARGEST_MESSAGE // 2} bytes", source=name_or_path)
+    return {"toml": text}
 
 
 def _optional_text(value: object, field: str) -> str | None:

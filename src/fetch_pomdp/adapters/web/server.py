@@ -51,6 +51,9 @@ def create_app(config: Config) -> Any:
             return responses.PlainTextResponse("no such sentence", status_code=404)
         return responses.Response(voice.wav(sentence), media_type="audio/wav")
 
+    async def table(_: Any) -> Any:
+        return responses.JSONResponse({"scene": config.scene})
+
     async def session(page: Any) -> None:
         await hall.receive(page)
 
@@ -58,6 +61,7 @@ def create_app(config: Config) -> Any:
     routes = [
         routing.WebSocketRoute("/session", session),
         routing.Route("/voice/{key}.wav", speak),
+        routing.Route("/table.json", table),
         routing.Mount("/", pages),
     ]
     app = fastapi.FastAPI(routes=routes, docs_url=None, redoc_url=None, openapi_url=None)

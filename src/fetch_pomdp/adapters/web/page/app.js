@@ -16,6 +16,7 @@ const REPEAT = 80; // ms between rays while the person points
 const SHOWN = 1200; // ms that pointing by the keyboard lasts
 
 let scene = null, insight = true, latest = null, target = null, pointing = null, held = false, begun = null, bubbleTimer = null, state = "connecting";
+let own = null; // the TOML of the last table that was not built in
 
 setLanguage(chosenLanguage());
 $("#language").value = chosenLanguage();
@@ -38,6 +39,7 @@ function makeStage() {
 }
 
 function begin(table) {
+  own = table.toml ?? own;
   $("#scene").value = typeof table === "string" ? table : "own";
   if (JSON.stringify(table) !== begun) arm.forget();
   connection.begin({ scene: table, sigma: arm.sigma, planner: $("#planner").value, seed: Math.floor(Math.random() * 2 ** 31) });
@@ -64,7 +66,7 @@ function welcome(message) {
   $("#thinking").hidden = !insight;
   applyThinking();
   $("#scene").value = message.scene_name ?? "own";
-  $("#scene [value=own]").hidden = message.scene_name !== null;
+  $("#scene [value=own]").hidden = message.scene_name !== null && own === null;
   $("#planner").value = message.planner;
   $("#end").hidden = true;
   $("#answers").hidden = true;
@@ -266,10 +268,10 @@ $("#language").addEventListener("change", () => {
   if (scene) { labels.set(scene, insight); if (latest) believe(latest, false); editor.load(scene); stage?.draw(); }
   if (mind.decided) mind.decide(mind.decided);
 });
-const table = () => ($("#scene").value === "own" ? { toml: editor.toml() } : $("#scene").value);
+const table = () => ($("#scene").value === "own" ? { toml: own ?? editor.toml() } : $("#scene").value);
 $("#scene").addEventListener("change", () => begin(table()));
 $("#planner").addEventListener("change", () => begin(table()));
 $("#again").addEventListener("click", () => { begin(table()); $("#say").focus(); });
 
 if (connection.resume) connection.begin(null);
-else begin("ambiguous");
+else begin((await (await fetch("table.json")).json()).scene);
