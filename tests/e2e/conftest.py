@@ -22,15 +22,15 @@ PATIENCE = 120_000  # ms: the first server of a run compiles the planner
 class Server:
     """A server process on a port of its own, which can be killed and started again."""
 
-    def __init__(self, data: Path) -> None:
-        self.data = data
+    def __init__(self, data: Path, *options: str) -> None:
+        self.data, self._options = data, options
         self._port = _free_port()
         self.address = f"http://127.0.0.1:{self._port}/"
         self.start()
 
     def start(self) -> None:
         program = str(Path(sys.executable).with_name("fetch-pomdp"))
-        command = [program, "serve", "--port", str(self._port), "--data", str(self.data)]
+        command = [program, "serve", *self._options, "--port", str(self._port), "--data", str(self.data)]
         self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         assert self._process.stdout is not None
         assert self.address in self._process.stdout.readline()
@@ -45,11 +45,26 @@ def _free_port() -> int:
         return int(door.getsockname()[1])
 
 
-@pytest.fixture
-def server(tmp_path: Path) -> Iterator[Server]:
-    made = Server(tmp_path / "data")
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    """The server of all tests that do nothing to it."""
+    made = Server(tmp_path_factory.mktemp("data"))
     yield made
     made.kill()
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Callable[..., Server]]:
+    """Starts a server of the test's own, with further options."""
+    made: list[Server] = []
+
+    def start(*options: str) -> Server:
+        made.append(Server(tmp_path / f"data-{len(made)}", *options))
+        return made[-1]
+
+    yield start
+    for each in made:
+        each.kill()
 
 
 @pytest.fixture(scope="session")
@@ -112,13 +127,14 @@ class Person:
 
 
 @pytest.fixture
-def visit(browser: Browser, server: Server) -> Iterator[Callable[[], Person]]:
+def visit(browser: Browser, server: Server) -> Iterator[Callable[..., Person]]:
+    """Lets somebody come to the common server, or to another."""
     contexts: list[BrowserContext] = []
     people: list[Person] = []
 
-    def come() -> Person:
+    def come(to: Server = server) -> Person:
         contexts.append(browser.new_context(viewport={"width": 1280, "height": 800}, locale="en"))
-        people.append(Person(contexts[-1], server.address))
+        people.append(Person(contexts[-1], to.address))
         return people[-1]
 
     yield come

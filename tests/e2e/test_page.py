@@ -13,7 +13,8 @@ from playwright.sync_api import Browser, expect
 from tests.e2e.conftest import PATIENCE, Person, Server
 
 pytestmark = pytest.mark.browser
-Visit = Callable[[], Person]
+Visit = Callable[..., Person]
+Serve = Callable[..., Server]
 MARKERS = {"marker-1", "marker-2"}
 
 
@@ -90,8 +91,9 @@ def test_two_people_at_once_hear_nothing_of_each_other(visit: Visit) -> None:
     assert share(other, "spoon-1") < share(one, "spoon-1")
 
 
-def test_a_killed_server_loses_nothing_that_was_shown(visit: Visit, server: Server) -> None:
-    person = visit()
+def test_a_killed_server_loses_nothing_that_was_shown(visit: Visit, serve: Serve) -> None:
+    server = serve()
+    person = visit(server)
     person.say("hand me the marker")
     asked = person.asked_about()
     before = person.log().splitlines()
@@ -127,6 +129,27 @@ def test_a_table_is_edited_saved_and_opened(visit: Visit, tmp_path: Path) -> Non
     path.write_text(path.read_text().replace("teapot", "yes"))
     person.page.set_input_files("#upload", path)
     expect(person.find("#editor-error")).to_contain_text("items[0].vocabulary", timeout=PATIENCE)
+
+
+def test_a_table_that_the_server_was_started_with(visit: Visit, serve: Serve, tmp_path: Path) -> None:
+    path = tmp_path / "table.toml"
+    places = ("-0.3", "0.3")
+    items = [
+        f'[[items]]\nid = "{name}"\nposition = [{x}, 2, 0.75]\nvocabulary = ["{name}"]\n'
+        for name, x in zip(("tea", "cup"), places, strict=True)
+    ]
+    path.write_text("head = [0, 0, 1.6]\n" + "".join(items) + "[model]\nsigma = 0.3\n")
+    server = serve(str(path))
+    person = visit(server)
+    person.say("cup")
+    assert person.got() == "cup"
+    person.find("#again").click()
+    expect(person.find("#log li")).to_have_count(0, timeout=PATIENCE)
+    assert share(person, "tea") == 50
+    person.say("tea")
+    expect(person.find("#log")).to_contain_text("tea", timeout=PATIENCE)
+    logs = [path.read_text() for path in server.data.iterdir()]
+    assert [json.loads(log.splitlines()[0])["model"]["sigma"] for log in logs] == [0.3, 0.3]
 
 
 @pytest.mark.parametrize("language", ["en", "de"])
