@@ -4,7 +4,7 @@ BIN := .venv/bin
 EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
-.PHONY: demo test lint coverage check-all screenshots bench picture requirements clean
+.PHONY: demo test lint coverage check-all shows audit screenshots film bench picture requirements clean
 
 demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
@@ -13,7 +13,7 @@ demo: .venv/installed
 	@echo 'In a browser: .venv/bin/fetch-pomdp serve'
 
 test: .venv/tested lint coverage
-	$(BIN)/pytest
+	$(BIN)/pytest -n 2 --dist worksteal
 
 lint: .venv/tested
 	$(BIN)/ruff format --check .
@@ -24,13 +24,24 @@ lint: .venv/tested
 coverage: .venv/tested
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest tests/core -m 'not slow' --cov=src/fetch_pomdp/core --cov-report=term --cov-fail-under=95
 
-# What takes long or needs more: whole interactions in Debian's Chromium (apt install chromium).
-check-all: test
-	$(BIN)/pytest -m browser tests/e2e
+# What takes long or needs more of the machine: the page in Debian's Chromium, a PostgreSQL, fifty people at once
+# (apt install chromium postgresql espeak-ng flite sox).
+check-all: test shows
+
+shows: .venv/tested
+	tests/with_postgres.sh $(BIN)/pytest -m 'browser or postgres or load' tests
+
+# Known holes in what is installed, asked of PyPI; not a part of the tests, for those need no network.
+audit:
+	@test -d .venv-audit || ($(PYTHON) -m venv .venv-audit && .venv-audit/bin/pip install -q --disable-pip-version-check pip-audit)
+	.venv-audit/bin/pip-audit --strict --progress-spinner off --disable-pip --no-deps -r requirements/bench.txt
 
 screenshots: .venv/tested
 	$(BIN)/python docs/make_screenshots.py
 	$(BIN)/python -m tests.e2e.film.measure docs/serve-arm.png
+
+film: .venv/tested
+	$(BIN)/python docs/make_film.py
 
 bench: .venv/tested
 	$(BIN)/pip install -q -r requirements/bench.txt
@@ -61,4 +72,4 @@ requirements:
 	$(PIN) --extra speech --extra serve -c requirements/bench.txt -o requirements/run.txt
 
 clean:
-	rm -rf .venv .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-audit .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
