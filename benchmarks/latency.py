@@ -2,6 +2,7 @@
 
     python benchmarks/latency.py [--json] [--snr 20] [--cache FOLDER]     # 8 minutes; Linux, apt install chromium
     python benchmarks/latency.py --alone 0 --no-page --people 50            # the last part alone
+    python benchmarks/latency.py --docs docs/live.md [--from FILE]          # writes the tables of that page
 
 1. One person speaks, alone on the server: from the end of a word to the arrival of the belief message that it moves.
 2. The page in Chromium, whose fake microphone plays sentences: from the end of an item's word, in the sound as it
@@ -29,6 +30,7 @@ from typing import Any
 
 import numpy as np
 
+import latency_report
 from sayings import say, say_all
 from serving import Served, Spent
 from visitors import KINDS, SENTENCES, Speaker, Stay, Visitor
@@ -143,12 +145,13 @@ async def crowd(served: Served, options: argparse.Namespace, before: Spent) -> d
         many = served.spent()
         spent = time.monotonic() - begun
         took, own = many.cpu - cpu, time.process_time() - own
+    stays = [stay for visitor in (*speakers, *typists) for stay in visitor.stays]
     return {
         "memory_mb": {"0": before.memory, str(options.speakers): few.memory, str(options.people): many.memory},
         "cores": {"server": round(took / spent, 2), "people": round(own / spent, 2)},
         "speakers": outcome([stay for visitor in speakers for stay in visitor.stays]),
         "typists": outcome([stay for visitor in typists for stay in visitor.stays]),
-        "all": {"decision_s": summary(decision_times([s for v in (*speakers, *typists) for s in v.stays]))},
+        "all": {"decision_s": summary(decision_times(stays)), "decision_told_late_s": summary(delivery_times(stays))},
     }
 
 
@@ -156,7 +159,7 @@ async def measure(options: argparse.Namespace) -> dict[str, Any]:
     """Measure one person, then many."""
     options.cache.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as data, Served("--data", data) as served:
-        found: dict[str, Any] = {"load_before": os.getloadavg()[0], "snr": options.snr}
+        found: dict[str, Any] = {"cores": os.cpu_count(), "load_before": os.getloadavg()[0], "snr": options.snr}
         await Visitor(served.host, 0).interact()  # the planner is compiled, the table solved
         if options.alone:
             found["alone"] = await alone(served.host, options.alone, options.snr, options.cache)
@@ -175,7 +178,7 @@ async def measure(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Measure, and print lines or JSON."""
+    """Measure, and print Markdown or JSON."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--alone", type=float, default=80.0, metavar="SECONDS", help="0: leave out the first part")
     parser.add_argument("--page", action=argparse.BooleanOptionalAction, default=True, help="the second part")
@@ -184,12 +187,16 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=120.0, help="of the third part")
     parser.add_argument("--snr", type=int, default=20, help="dB")
     parser.add_argument("--json", action="store_true")
+    parser.add_argument("--docs", type=Path, metavar="FILE", help="Markdown document whose tables to write anew")
+    parser.add_argument("--from", dest="saved", type=Path, metavar="FILE", help="what --json printed before")
     parser.add_argument("--cache", type=Path, default=Path(tempfile.gettempdir()) / "fetch-pomdp-voices")
     options = parser.parse_args()
     if missing := missing_tools():
         parser.error(f"not installed: {', '.join(missing)}; install with: apt install {' '.join(missing)}")
-    found = asyncio.run(measure(options))
-    print(json.dumps(found, indent=None if options.json else 2))
+    found = json.loads(options.saved.read_text()) if options.saved else asyncio.run(measure(options))
+    if options.docs:
+        latency_report.write(options.docs, latency_report.report(found))
+    print(json.dumps(found, indent=2) if options.json else latency_report.report(found))
 
 
 if __name__ == "__main__":
