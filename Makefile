@@ -33,7 +33,7 @@ shows: .venv/tested
 
 # Known holes in what is installed, asked of PyPI; not a part of the tests, for those need no network.
 audit:
-	@test -d .venv-audit || ($(PYTHON) -m venv .venv-audit && .venv-audit/bin/pip install -q --disable-pip-version-check pip-audit)
+	@test -x .venv-audit/bin/pip-audit || ($(PYTHON) -m venv .venv-audit && .venv-audit/bin/pip install -q --disable-pip-version-check pip-audit)
 	.venv-audit/bin/pip-audit --strict --progress-spinner off --disable-pip --no-deps -r requirements/bench.txt
 
 screenshots: .venv/tested
