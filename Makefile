@@ -22,7 +22,7 @@ lint: .venv/tested
 
 # Compiled code leaves no trace in a coverage report, so the core is measured in a second short run without compilation.
 coverage: .venv/tested
-	NUMBA_DISABLE_JIT=1 $(BIN)/pytest tests/core -m 'not slow' --cov=src/fetch_pomdp/core --cov-report=term --cov-fail-under=95
+	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -n 2 --dist worksteal tests/core -m 'not slow' --cov=src/fetch_pomdp/core --cov-report=term --cov-fail-under=95
 
 # What takes long or needs more of the machine: the page in Debian's Chromium, a PostgreSQL, fifty people at once
 # (apt install chromium postgresql espeak-ng flite sox).

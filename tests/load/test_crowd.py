@@ -5,8 +5,10 @@ from __future__ import annotations
 import asyncio
 import json
 import time
-from collections.abc import Iterator
+from collections.abc import Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,6 +20,12 @@ from visitors import Speaker, Visitor
 pytestmark = pytest.mark.load
 PEOPLE, SPEAKERS, SHARE = 50, 10, 0.2
 KEPT = 12  # threads and files that a server may keep when all have left: a pool to wait in, the recogniser's process
+
+
+def run(going_on: Coroutine[Any, Any, Any]) -> None:
+    """Run to the end, in a thread, for Playwright's loop goes on in this one when the browser's tests came before."""
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(asyncio.run, going_on).result()
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +42,7 @@ def served(data: Path) -> Iterator[Served]:
 @pytest.fixture(scope="module")
 def before(served: Served) -> Spent:
     """What the server has taken when it has heard and seen one person off."""
-    asyncio.run(Visitor(served.host, PEOPLE).interact())
+    run(Visitor(served.host, PEOPLE).interact())
     time.sleep(1.0)
     return served.spent()
 
@@ -54,7 +62,7 @@ def people(served: Served, before: Spent, tmp_path_factory: pytest.TempPathFacto
             for visitor in (*speakers, *typists):
                 group.create_task(visitor.interact())
 
-    asyncio.run(come())
+    run(come())
     return [*speakers, *typists]
 
 
