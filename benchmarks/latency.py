@@ -1,6 +1,6 @@
 """How long a served robot takes: a real server, people on WebSockets, sound at the pace at which it is heard.
 
-    python benchmarks/latency.py [--json] [--snr 20] [--cache FOLDER]     # 8 minutes; Linux, apt install chromium
+    python benchmarks/latency.py [--json] [--snr 20] [--cache FOLDER]     # 9 minutes; Linux, apt install chromium
     python benchmarks/latency.py --alone 0 --no-page --people 50            # the last part alone
     python benchmarks/latency.py --docs docs/live.md [--from FILE]          # writes the tables of that page
 
@@ -180,7 +180,7 @@ async def measure(options: argparse.Namespace) -> dict[str, Any]:
 def main() -> None:
     """Measure, and print Markdown or JSON."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--alone", type=float, default=80.0, metavar="SECONDS", help="0: leave out the first part")
+    parser.add_argument("--alone", type=float, default=160.0, metavar="SECONDS", help="0: leave out the first part")
     parser.add_argument("--page", action=argparse.BooleanOptionalAction, default=True, help="the second part")
     parser.add_argument("--people", type=int, default=50, help="0: leave out the third part")
     parser.add_argument("--speakers", type=int, default=10)

@@ -51,10 +51,10 @@ def _crowd(crowd: dict[str, Any]) -> str:
     came = sum(crowd[who]["interactions"] for who in ("speakers", "typists"))
     over = sum(crowd[who]["handed_over"] for who in ("speakers", "typists"))
     return (
-        f"{over} of {came} interactions ended in a hand-over; of what was wanted in {who[0]} and {who[1]}. The server\n"
-        f"took {cores['server']:.2f} of a core, the people {cores['people']:.2f}. Its memory (Pss, the recogniser's\n"
-        f"process included) was {none[1]:.0f} MB with nobody there, {some[1]:.0f} MB with {some[0]} people and\n"
-        f"{all_[1]:.0f} MB with {all_[0]}: {each:.1f} MB each."
+        f"{over} of {came} interactions ended in a hand-over; of what was wanted in {who[0]} and {who[1]}.\n"
+        f"The server took {cores['server']:.2f} of a core, the people {cores['people']:.2f}. Its memory (Pss, the"
+        f" recogniser's process included) was\n{none[1]:.0f} MB with nobody there, {some[1]:.0f} MB with {some[0]}"
+        f" people and {all_[1]:.0f} MB with {all_[0]}: {each:.1f} MB each."
     )
 
 
