@@ -185,5 +185,10 @@ def test_a_microphone_is_heard(server: Server, chromium: Callable[..., Browser])
         person.find("#microphone").click()
         expect(person.find("#log")).to_contain_text("marker", timeout=PATIENCE)
         assert share(person, "marker-1") > 30
+        person.find("#options").click()
+        person.find("#scene").select_option("unambiguous")  # a new interaction, over which the microphone stays open
+        expect(person.find("#log li")).to_have_count(0, timeout=PATIENCE)
+        expect(person.find("#microphone")).to_have_attribute("aria-pressed", "true")
+        expect(person.find("#log")).to_contain_text("marker", timeout=PATIENCE)
         person.find("#microphone").click()
         assert person.errors == []

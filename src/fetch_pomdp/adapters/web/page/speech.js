@@ -19,10 +19,14 @@ export class Speech {
   }
 
 
-  // Offer the ways of recognising speech that there are here.
+  // Offer the ways of recognising speech that there are here; an open microphone stays open over a new interaction.
   offer(server) {
     $("#server-ears").hidden = !server || !navigator.mediaDevices;
     $("#browser-ears").hidden = !Recogniser;
+    if (this.on) {
+      if (this.sound) this.connection.send({ type: "microphone", on: true });
+      return;
+    }
     if (server && navigator.mediaDevices && this.#chosen() === "none" && !this.offered) $("[name=ears][value=server]").checked = true;
     this.offered = true;
     this.#choose();
