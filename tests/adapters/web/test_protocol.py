@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from fetch_pomdp.adapters.web.protocol import (
     LARGEST_MESSAGE,
-    LIVE_MODEL,
     MOST_ITEMS,
     Hello,
     Microphone,
@@ -21,6 +20,7 @@ from fetch_pomdp.adapters.web.protocol import (
 )
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
+from fetch_pomdp.files.lively import LIVE_MODEL
 
 TABLE = """
 head = [0.0, 0.0, 1.6]

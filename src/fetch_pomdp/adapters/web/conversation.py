@@ -12,12 +12,14 @@ import threading
 from collections.abc import Callable
 
 from fetch_pomdp.adapters.speech.espeak import Voice
+from fetch_pomdp.adapters.speech.stream import listened_for
 from fetch_pomdp.adapters.web.ears import Ears, Hearing
 from fetch_pomdp.adapters.web.journal import Journal
+from fetch_pomdp.adapters.web.protocol import Message, Microphone, Pointed, Typed, Typing, message_from_text
 from fetch_pomdp.adapters.web.robot import ARM, SPEAK, PageRobot
-from fetch_pomdp.adapters.web.tell import Told, complaint, saying, update_to_json
+from fetch_pomdp.adapters.web.tell import Told, View, complaint, saying
 from fetch_pomdp.core.interaction import Timing
-from fetch_pomdp.core.live import LIVE, Did, Ended, Heard, Inbox, LiveSession, RealClock, Update
+from fetch_pomdp.core.live import LIVE, Did, Ended, Heard, Inbox, LiveRobot, LiveSession, RealClock, Update
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.ports import Frame, Word
 from fetch_pomdp.errors import MessageError
@@ -29,25 +31,29 @@ TIMING: Timing = dataclasses.replace(LIVE, question=ARM + SPEAK + LIVE.wait, ove
 
 
 class Conversation:
-    """An interaction that rests while its person is silent. tell: takes messages, from any thread, and returns soon."""
+    """An interaction that rests while its person is silent.
+
+    tell: takes messages, from any thread, and returns soon. body: makes the robot, given what says a sentence.
+    """
 
     def __init__(
         self,
         journal: Journal,
         tell: Callable[[Told], None],
         *,
-        insight: bool,
+        view: View,
         voice: Voice | None,
         hearing: Hearing | None,
+        body: Callable[[Callable[[str], None]], LiveRobot] = PageRobot,
     ) -> None:
-        self._journal, self._tell, self._insight, self._voice = journal, tell, insight, voice
+        self._journal, self._tell, self._view, self._voice = journal, tell, view, voice
         self.clock = RealClock(journal.time)
         self._agent = journal.agent()
-        self._robot = PageRobot(self._say)
+        self._robot = body(self._say)
         self._leaving, self._came = threading.Event(), threading.Event()  # came: something to go on with
         self._heard_at = self.clock.now()
         self.inbox, self._session = self._rest()
-        words = self._agent.scene.words
+        words = listened_for(self._agent.scene)
         self._ears = None if hearing is None else Ears(hearing, words, lambda: self.inbox, self.clock.now)
         self._thread = threading.Thread(target=self._run, name=f"conversation {journal.name[:8]}", daemon=True)
 
@@ -64,37 +70,61 @@ class Conversation:
             self._ears.close()
 
     def join(self, timeout: float) -> None:
-        """Wait until the thread has ended."""
+        """Wait until the thread has ended, and close the journal."""
         self._thread.join(timeout)
+        self._journal.close()
 
-    def type(self, text: str) -> None:
-        """Hear a text."""
+    @property
+    def name(self) -> str:
+        """The name of its journal."""
+        return self._journal.name
+
+    def take(self, message: str | bytes) -> None:
+        """Take what a page sent. Raises InputError for what is no message."""
+        self.heed(message if isinstance(message, bytes) else message_from_text(message))
+
+    def heed(self, message: Message | bytes) -> None:
+        """Hear or see what a person says or shows.
+
+        Raises MessageError for hello, and for sound where there are no ears.
+        """
+        if isinstance(message, bytes):
+            self._hear(message)
+        elif isinstance(message, Typed):
+            self._type(message.text)
+        elif isinstance(message, Typing):
+            self._expect(message.text)
+        elif isinstance(message, Pointed):
+            self._point(Frame(self.clock.now(), message.head, (message.wrist,)))
+        elif isinstance(message, Microphone):
+            self._hush(message)
+        else:
+            raise MessageError("found hello again, expected it once", field="type")
+
+    def _type(self, text: str) -> None:
         now = self.clock.now()
         self._heard_at = now
         self.inbox.push_partial(None)
         for part in text.split():
             self.inbox.push_word(Word(part, now, now))
 
-    def expect(self, text: str) -> None:
-        """Know that a text is being typed; its words so far are a hypothesis, and the last one may be unfinished."""
+    def _expect(self, text: str) -> None:
+        """Take the words of a text that is being typed as a hypothesis; the last one may be unfinished."""
         now = self._heard_at = self.clock.now()
         whole = text.split() if text[-1:].isspace() else text.split()[:-1]
         self.inbox.push_partial(tuple(Word(part, now, now) for part in whole) if text.strip() else None)
 
-    def point(self, frame: Frame) -> None:
-        """See a skeleton."""
+    def _point(self, frame: Frame) -> None:
         self._heard_at = frame.time
         self.inbox.push_frame(frame)
 
-    def hear(self, pcm: bytes) -> None:
-        """Hear sound. Raises MessageError for what is none, and where there are no ears."""
+    def _hear(self, pcm: bytes) -> None:
         if self._ears is None:
             raise MessageError("found sound, expected none: this server has no ears")
         self._ears.hear(pcm)
 
-    def hush(self) -> None:
-        """Know that no sound follows for now."""
-        if self._ears is not None:
+    def _hush(self, microphone: Microphone) -> None:
+        if self._ears is not None and not microphone.on:
             self._ears.end()
 
     def _rest(self) -> tuple[Inbox, LiveSession]:
@@ -144,6 +174,6 @@ class Conversation:
             self._heard_at = self.clock.now()
         if isinstance(update, Heard) and self.clock.now() - self._heard_at > IDLE:
             self._session.close()
-        told = update_to_json(update, self._agent, insight=self._insight)
+        told = self._view(update, self._agent)
         if told is not None:
             self._tell(told)

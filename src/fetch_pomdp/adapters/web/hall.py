@@ -1,25 +1,22 @@
-"""Everybody who is talking to the robot: each page has a conversation of its own, and none hears of another."""
+"""Everybody who is before a page: each has a party of their own, and none hears of another."""
 
 from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Mapping
+import secrets
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
+from weakref import WeakValueDictionary
 
-from fetch_pomdp.adapters.speech.espeak import Voice
-from fetch_pomdp.adapters.web.conversation import Conversation
-from fetch_pomdp.adapters.web.ears import Hearing
 from fetch_pomdp.adapters.web.gate import Gate
-from fetch_pomdp.adapters.web.journal import Journal, Journals, name_of
 from fetch_pomdp.adapters.web.outbox import Outbox
-from fetch_pomdp.adapters.web.protocol import VERSION, Hello, message_from_text
-from fetch_pomdp.adapters.web.tell import Told, belief_by_id, complaint, event_message, scene_to_json
-from fetch_pomdp.adapters.web.visit import POLICY, GoneError, Visit, close, received, send
+from fetch_pomdp.adapters.web.protocol import Hello, message_from_text
+from fetch_pomdp.adapters.web.tell import Told, complaint
+from fetch_pomdp.adapters.web.visit import POLICY, GoneError, Party, Visit, close, received, send
 from fetch_pomdp.errors import FetchPomdpError, MessageError
-from fetch_pomdp.files.header import Header
 
 logger = logging.getLogger(__name__)
 
@@ -43,13 +40,35 @@ class Config:
     sound: float = 64_000.0  # bytes a second, of one page: twice what a microphone sends
 
 
-class Hall:
-    """Lets pages in and keeps them apart. voice, hearing: None where they are not installed."""
+class Reception(Protocol):
+    """Gives each page its party, which tells it all by `tell`, from any thread."""
 
-    def __init__(self, config: Config, voice: Voice | None, hearing: Hearing | None) -> None:
-        self._config, self._voice, self._hearing = config, voice, hearing
-        self.gate, self._journals = Gate(config.token), Journals(config.data)
-        self._visits: dict[str, Visit] = {}
+    def name(self, hello: Hello) -> str | None:
+        """Return the name of the party that a page comes back to, if it says that it does."""
+        ...
+
+    def returning(self, hello: Hello, tell: Callable[[Told], None]) -> Party | None:
+        """Return the party that a page comes back to, None if there is none."""
+        ...
+
+    def newcomer(self, hello: Hello, tell: Callable[[Told], None]) -> Party:
+        """Return a party for somebody new."""
+        ...
+
+    def get_ready(self) -> None:
+        """Do what takes long before the first person comes."""
+        ...
+
+
+class Hall:
+    """Lets pages in and keeps them apart."""
+
+    def __init__(self, config: Config, reception: Reception) -> None:
+        self._config, self._reception = config, reception
+        self.gate = Gate(config.token)
+        self._visits: list[Visit] = []
+        # One at a time, of those who come back to the same party: two pages that lost a server come back at once.
+        self._doors: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     async def receive(self, socket: Any) -> None:
         """Talk to one page, from its first message until it has left."""
@@ -59,8 +78,11 @@ class Hall:
             return
         await socket.accept()
         try:
-            journal, resumed = await self._journal(await asyncio.wait_for(self._hello(socket), GREETING))
-            await self._visit(socket, journal, resumed=resumed)
+            visit = await self._visit(socket, await asyncio.wait_for(self._hello(socket), GREETING))
+            try:
+                await visit.last()
+            finally:
+                self._visits.remove(visit)
         except GoneError:
             logger.info("a page left")
         except (FetchPomdpError, TimeoutError) as error:
@@ -83,49 +105,23 @@ class Hall:
             raise MessageError("found a wrong token, expected the one that the server printed", field="token")
         return hello
 
-    async def _journal(self, hello: Hello) -> tuple[Journal, bool]:
-        """Return the journal that a page goes on with, and whether it is an old one."""
-        if hello.resume is not None:
-            if visit := self._visits.get(name_of(hello.resume)):
+    async def _visit(self, socket: Any, hello: Hello) -> Visit:
+        outbox, config = Outbox(asyncio.get_running_loop()), self._config
+        name = self._reception.name(hello)
+        async with self._doors.setdefault(name or secrets.token_hex(), asyncio.Lock()):
+            party = await self._party(hello, name, outbox)
+            visit = Visit(socket, party, outbox, messages=config.messages, sound=config.sound)
+            self._visits.append(visit)
+        return visit
+
+    async def _party(self, hello: Hello, name: str | None, outbox: Outbox) -> Party:
+        """Return the party that a page goes on with, or a new one."""
+        if name is not None:
+            for visit in [each for each in self._visits if each.party.name == name]:
                 await visit.leave()
-            journal = await asyncio.to_thread(self._journals.resumed, hello.resume)
-            if journal is not None:
-                return journal, True
+            party = await asyncio.to_thread(self._reception.returning, hello, outbox.put)
+            if party is not None:
+                return party
         if len(self._visits) >= self._config.most_people:
             raise MessageError(f"found {len(self._visits)} people here, expected you to come back later")
-        header = Header(scene=hello.scene, scene_name=hello.scene_name, planner=hello.planner, seed=hello.seed)
-        return await asyncio.to_thread(self._journals.new, header), False
-
-    async def _visit(self, socket: Any, journal: Journal, *, resumed: bool) -> None:
-        config, outbox = self._config, Outbox(asyncio.get_running_loop())
-        try:
-            outbox.put(self._welcome(journal, resumed=resumed))
-            conversation = Conversation(
-                journal, outbox.put, insight=config.insight, voice=self._voice, hearing=self._hearing
-            )
-            visit = Visit(socket, conversation, outbox, messages=config.messages, sound=config.sound)
-            self._visits[journal.name] = visit
-            await visit.last()
-        finally:
-            self._visits.pop(journal.name, None)
-            journal.close()
-
-    def _welcome(self, journal: Journal, *, resumed: bool) -> Told:
-        agent = journal.agent()
-        past = (event_message(event, agent) for event in journal.events)
-        belief = belief_by_id(agent.belief, agent.scene) if self._config.insight else None
-        return {
-            "type": "welcome",
-            "version": VERSION,
-            "session": journal.name[:8],
-            "resume": journal.secret,
-            "resumed": resumed,
-            "scene": scene_to_json(agent.scene),
-            "scene_name": journal.header.scene_name,
-            "planner": journal.header.planner,
-            "insight": self._config.insight,
-            "ears": self._hearing is not None,
-            "belief": belief,
-            "past": [told for told in past if told is not None],
-            "picked": journal.picked,
-        }
+        return await asyncio.to_thread(self._reception.newcomer, hello, outbox.put)

@@ -10,6 +10,7 @@ import secrets
 from collections import OrderedDict
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
@@ -21,14 +22,26 @@ from fetch_pomdp.files.recordings import EventLog
 MOST_KEPT = 1_000  # journals in memory, when there is no folder for them
 
 
+class Sink(Protocol):
+    """Where the events of an interaction are kept: a file, or a trial in a database."""
+
+    def write(self, event: Event) -> None:
+        """Keep an event; it is safe when this returns."""
+        ...
+
+    def close(self) -> None:
+        """Keep no more."""
+        ...
+
+
 @dataclass(slots=True)
 class Journal:
-    """One interaction: what it is about, and its events, in memory and in a file if there is one."""
+    """One interaction: what it is about, and its events, in memory and in a sink if there is one."""
 
     secret: str
     header: Header
     events: list[Event] = field(default_factory=list)
-    log: EventLog | None = None
+    sink: Sink | None = None
 
     @property
     def name(self) -> str:
@@ -55,16 +68,16 @@ class Journal:
         return agent
 
     def write(self, event: Event) -> None:
-        """Add an event; it is on disk when this returns, if there is a file."""
+        """Add an event; it is safe when this returns, if there is a sink."""
         self.events.append(event)
-        if self.log is not None:
-            self.log.write(event)
+        if self.sink is not None:
+            self.sink.write(event)
 
     def close(self) -> None:
-        """Close the file."""
-        if self.log is not None:
-            self.log.close()
-            self.log = None
+        """Close the sink."""
+        if self.sink is not None:
+            self.sink.close()
+            self.sink = None
 
 
 def name_of(secret: str) -> str:
@@ -85,7 +98,7 @@ class Journals:
         """Begin a journal. Raises EventError if its file cannot be written."""
         journal = Journal(secrets.token_urlsafe(24), header)
         if self._folder is not None:
-            journal.log = EventLog.create(self._path(journal.name), header)
+            journal.sink = EventLog.create(self._path(journal.name), header)
         else:
             self._kept[journal.name] = journal
             while len(self._kept) > MOST_KEPT:

@@ -2,11 +2,6 @@
 
 A page says hello, and from then on what its person types and where they point; the server tells what the robot does.
 Every message has a `type`; an unknown field is refused, so that a misspelt one is not passed over.
-
-Choice: in most seconds live people neither speak nor point, and who has said what they want falls silent. At the
-paper's chances of speaking and pointing in a step, 0.95 and 0.1, the robot would wait for their next word for ever
-(Section V saw that too). A page's tables have 0.3 and 0.02 unless a scene file says otherwise. What a word or a gesture
-does to the belief is the same with both; only what the robot expects of the next second differs.
 """
 
 from __future__ import annotations
@@ -25,12 +20,12 @@ from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.documents import parse_toml, read_text
 from fetch_pomdp.errors import MessageError, SceneError
+from fetch_pomdp.files.lively import live_scene, lively
 
 VERSION = 1
 LARGEST_MESSAGE = 65_536  # bytes, of text or sound
 LONGEST_TEXT = 300  # letters a person types at once
 MOST_ITEMS = 40  # a planner solves so many in a second or two
-LIVE_MODEL: Mapping[str, Any] = {"p_l": 0.3, "p_g": 0.02}
 SIGMAS = (0.02, 0.3)  # rad, of a calibrated camera: nobody's arm is surer, and with a less sure one the mouse is used
 
 
@@ -39,6 +34,7 @@ class Hello:
     """The first message: which table, which planner, and which interaction to go on with, if any.
 
     The scene's model has the spread of pointing (`sigma`, rad) that the page's camera was calibrated to, if it was.
+    participant: what a page holds of a person of a study, who goes on with it; of no meaning where there is none.
     """
 
     scene: Scene
@@ -46,6 +42,7 @@ class Hello:
     planner: str
     seed: int
     resume: str | None
+    participant: str | None
     token: str | None
 
 
@@ -79,10 +76,18 @@ class Microphone:
 
 
 Message: TypeAlias = Hello | Typed | Typing | Pointed | Microphone
+# Of each type of message: its fields, and what reads them.
+Readers: TypeAlias = Mapping[str, tuple[Sequence[str], Callable[[Mapping[str, Any]], Any]]]
 
 
 def message_from_text(text: str) -> Message:
     """Read a message of a page. Raises MessageError or SceneError, naming the field, for what is none."""
+    message: Message = read_message(text, {"hello": _HELLO, **TALK})
+    return message
+
+
+def read_message(text: str, readers: Readers) -> Any:
+    """Read a message of one of the types of `readers`. Raises MessageError, naming the field, for what is none."""
     if len(text.encode("utf-8", "surrogatepass")) > LARGEST_MESSAGE:
         raise MessageError(f"found a larger message, expected at most {LARGEST_MESSAGE} bytes")
     try:
@@ -91,9 +96,9 @@ def message_from_text(text: str) -> Message:
         raise MessageError("found no JSON, expected a JSON object") from None
     fields = dict(checks.mapping(data, "", MessageError))
     kind = fields.pop("type", None)
-    if not isinstance(kind, str) or kind not in _READERS:
-        raise MessageError(f"found {shown(kind)}, expected one of {', '.join(_READERS)}", field="type")
-    names, read = _READERS[kind]
+    if not isinstance(kind, str) or kind not in readers:
+        raise MessageError(f"found {shown(kind)}, expected one of {', '.join(readers)}", field="type")
+    names, read = readers[kind]
     checks.known(fields, names, "field", MessageError)
     return read(fields)
 
@@ -111,35 +116,24 @@ def _hello(data: Mapping[str, Any]) -> Hello:
         expected = f"an angle from {SIGMAS[0]} to {SIGMAS[1]} rad"
         sigma = checks.within(data["sigma"], *SIGMAS, "sigma", expected, MessageError)
         scene = dataclasses.replace(scene, model=dataclasses.replace(scene.model, sigma=sigma))
-    resume, token = (_optional_text(data.get(field), field) for field in ("resume", "token"))
-    return Hello(scene=scene, scene_name=name, planner=planner, seed=seed, resume=resume, token=token)
+    secrets = {field: _optional_text(data.get(field), field) for field in ("resume", "participant", "token")}
+    return Hello(scene=scene, scene_name=name, planner=planner, seed=seed, **secrets)
 
 
 def _scene(value: object) -> tuple[Scene, str | None]:
     """Read a built-in scene's name, or {"toml": the text of a scene file}."""
     if isinstance(value, str):
+        if value not in LAYOUTS:
+            raise MessageError(f"found {shown(value)}, expected one of {', '.join(LAYOUTS)}", field="scene")
         return live_scene(value), value
     data = checks.mapping(value, "scene", MessageError)
     checks.known(data, ("toml",), "field", MessageError)
     checks.required(data, ("toml",), MessageError)
     text = checks.text(data["toml"], "scene.toml", "the text of a scene file", MessageError)
-    scene = parse_toml(text, "table", SceneError).build(_lively)
+    scene = parse_toml(text, "table", SceneError).build(lively)
     if len(scene.items) > MOST_ITEMS:
         raise SceneError(f"found {len(scene.items)}, expected at most {MOST_ITEMS}", field="items", source="table")
     return scene, None
-
-
-def live_scene(name: str) -> Scene:
-    """Return a built-in scene with the model of live people."""
-    if name not in LAYOUTS:
-        raise MessageError(f"found {shown(name)}, expected one of {', '.join(LAYOUTS)}", field="scene")
-    return _lively(LAYOUTS[name])
-
-
-def _lively(data: Mapping[str, Any]) -> Scene:
-    """Build a scene; where it does not say how often people speak and point, they do as live ones."""
-    model = data.get("model", {})
-    return Scene.from_mapping({**data, "model": {**LIVE_MODEL, **model} if isinstance(model, Mapping) else model})
 
 
 def scene_asked_for(name_or_path: str) -> str | dict[str, str]:
@@ -194,8 +188,8 @@ def _microphone(data: Mapping[str, Any]) -> Microphone:
     return Microphone(data["on"])
 
 
-_READERS: Mapping[str, tuple[Sequence[str], Callable[[Mapping[str, Any]], Message]]] = {
-    "hello": (("version", "scene", "sigma", "planner", "seed", "resume", "token"), _hello),
+_HELLO = (("version", "scene", "sigma", "planner", "seed", "resume", "participant", "token"), _hello)
+TALK: Readers = {  # what a person says and shows to the robot
     "typed": (("text",), _typed),
     "typing": (("text",), _typing),
     "ray": (("head", "wrist"), _pointed),

@@ -11,12 +11,9 @@ from typing import Any
 from fetch_pomdp.adapters.web.ears import hearing_if_installed, voice_if_installed
 from fetch_pomdp.adapters.web.gate import Gate
 from fetch_pomdp.adapters.web.hall import Config, Hall
-from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE, live_scene
+from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
+from fetch_pomdp.adapters.web.talks import Talks
 from fetch_pomdp.adapters.web.tell import SENTENCES
-from fetch_pomdp.core.layouts import LAYOUTS
-from fetch_pomdp.core.planners.base import prepare
-from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
-from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.extras import load
 
@@ -43,7 +40,8 @@ def create_app(config: Config) -> Any:
     routing, static = load("starlette.routing", EXTRA), load("starlette.staticfiles", EXTRA)
     responses = load("starlette.responses", EXTRA)
     voice, hearing = voice_if_installed(), hearing_if_installed()
-    hall = Hall(config, voice, hearing)
+    reception = Talks(config.data, insight=config.insight, voice=voice, hearing=hearing)
+    hall = Hall(config, reception)
 
     async def speak(request: Any) -> Any:
         sentence = SENTENCES.get(request.path_params["key"])
@@ -65,6 +63,7 @@ def create_app(config: Config) -> Any:
         routing.Mount("/", pages),
     ]
     app = fastapi.FastAPI(routes=routes, docs_url=None, redoc_url=None, openapi_url=None)
+    app.state.reception = reception
     app.add_middleware(Doorman, gate=hall.gate)
     return app
 
@@ -109,7 +108,7 @@ def serve(config: Config, host: str, port: int, ready: Callable[[], None]) -> No
         raise InputError(f"found {host}:{port} ({error.strerror}), expected a free address", field="--port") from None
     # Inherited by each connection: otherwise a message waits up to 40 ms for the receipt of the one before it.
     door.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    threading.Thread(target=_get_ready, daemon=True).start()
+    threading.Thread(target=app.state.reception.get_ready, daemon=True).start()
     settings = uvicorn.Config(
         app,
         log_level="warning",
@@ -122,9 +121,3 @@ def serve(config: Config, host: str, port: int, ready: Callable[[], None]) -> No
     with door:
         ready()
         uvicorn.Server(settings).run(sockets=[door])
-
-
-def _get_ready() -> None:
-    """Compile the planner and solve the built-in tables before the first person comes."""
-    for name in LAYOUTS:
-        prepare(planner_named(DEFAULT), Problem(live_scene(name)))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 from fetch_pomdp.core.action import Wait
 from fetch_pomdp.core.agent import Agent
@@ -10,7 +11,7 @@ from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED
 from fetch_pomdp.core.language import split
-from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Heard, SensorStatus, Update
+from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.words import COURTESY
 from fetch_pomdp.errors import InputError
@@ -18,6 +19,7 @@ from fetch_pomdp.files.decisions import decision_to_json
 from fetch_pomdp.files.events import action_to_json, event_to_json
 
 Told = dict[str, Any]
+View: TypeAlias = Callable[[Update, Agent], Told | None]  # what a page is told of an update
 
 ASKS, HANDS_OVER = "This one?", "Here you are."
 # All that the robot says; the page has these sentences in its languages, the server as sound.
@@ -49,24 +51,44 @@ def belief_by_id(belief: Vector, scene: Scene) -> dict[str, float]:
     return dict(zip((item.id for item in scene.items), belief.tolist(), strict=True))
 
 
-def update_to_json(update: Update, agent: Agent, *, insight: bool) -> Told | None:
-    """Return an update as a message, or None where there is nothing to tell.
-
-    insight: whether the person may know what the robot believes and why it does what it does.
-    """
-    scene = agent.scene
+def with_insight(update: Update, agent: Agent) -> Told | None:
+    """Return an update as a message, with what the robot believes and why; None where there is nothing to tell."""
     if isinstance(update, BeliefChanged):
-        fields = {"type": "belief", "t": update.time, "provisional": update.provisional, "heard": list(update.words)}
-        return {**fields, "belief": belief_by_id(update.belief, scene)} if insight else fields
+        return {**_changed(update), "belief": belief_by_id(update.belief, agent.scene)}
     if isinstance(update, Decided):
-        if not insight:
-            return {"type": "decided", "t": update.time, **action_to_json(update.decision.action, scene)}
-        return {"type": "decided", "t": update.time, **decision_to_json(update.decision, scene)}
+        return {"type": "decided", "t": update.time, **decision_to_json(update.decision, agent.scene)}
+    return _outward(update, agent)
+
+
+def without_insight(update: Update, agent: Agent) -> Told | None:
+    """Return an update as a message that says nothing of the robot's mind; None where there is nothing to tell."""
+    if isinstance(update, BeliefChanged):
+        return _changed(update)
+    if isinstance(update, Decided):
+        return decided(update, agent)
+    return _outward(update, agent)
+
+
+def decided(update: Decided, agent: Agent) -> Told:
+    """Return the action that begins, without its reasons."""
+    return {"type": "decided", "t": update.time, **action_to_json(update.decision.action, agent.scene)}
+
+
+def _changed(update: BeliefChanged) -> Told:
+    return {"type": "belief", "t": update.time, "provisional": update.provisional, "heard": list(update.words)}
+
+
+def _outward(update: Did | Heard | SensorStatus | Ended, agent: Agent) -> Told | None:
     if isinstance(update, Did | Heard):
         return event_message(update.event, agent)
     if isinstance(update, SensorStatus):
-        return {"type": "status", "sensor": update.name, "state": update.state.value, "text": update.text}
+        return sensor_status(update)
     return {"type": "ended", "picked": update.picked}
+
+
+def sensor_status(update: SensorStatus) -> Told:
+    """Return how a sensor does."""
+    return {"type": "status", "sensor": update.name, "state": update.state.value, "text": update.text}
 
 
 def event_message(event: Event, agent: Agent) -> Told | None:

@@ -1,33 +1,23 @@
-"""A page while it is connected: what it sends goes to its conversation, what that tells goes to the page."""
+"""A page while it is connected: what it sends goes to its party, what that tells goes to the page."""
 
 from __future__ import annotations
 
 import asyncio
 import json
 import logging
-from typing import Any
+from typing import Any, Protocol
 
-from fetch_pomdp.adapters.web.conversation import Conversation
 from fetch_pomdp.adapters.web.gate import Allowance
 from fetch_pomdp.adapters.web.outbox import Outbox
-from fetch_pomdp.adapters.web.protocol import (
-    LARGEST_MESSAGE,
-    Hello,
-    Microphone,
-    Pointed,
-    Typed,
-    Typing,
-    message_from_text,
-)
+from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
 from fetch_pomdp.adapters.web.tell import Told, complaint
-from fetch_pomdp.core.ports import Frame
-from fetch_pomdp.errors import InputError, MessageError
+from fetch_pomdp.errors import InputError
 
 logger = logging.getLogger(__name__)
 
 # Codes that close a WebSocket: of RFC 6455, and from 4000 our own.
 POLICY, TRY_LATER, TAKEN_OVER = 1008, 1013, 4001
-FAREWELL = 5.0  # s a conversation may take to end
+FAREWELL = 5.0  # s a party may take to end
 FORBEARANCE = 200  # messages too many after which a page is let go
 
 
@@ -60,20 +50,44 @@ async def close(socket: Any, code: int) -> None:
         raise GoneError from error
 
 
-class Visit:
-    """A page and its conversation. messages, sound: what it may send a second, in messages and in bytes of sound."""
+class Party(Protocol):
+    """Whom a page talks to: a conversation, or the attendance of a participant of a study."""
 
-    def __init__(
-        self, socket: Any, conversation: Conversation, outbox: Outbox, *, messages: float, sound: float
-    ) -> None:
-        self._socket, self._conversation, self._outbox = socket, conversation, outbox
+    @property
+    def name(self) -> str:
+        """The name under which it is found when its person comes back, which lets nobody in."""
+        ...
+
+    def start(self) -> None:
+        """Begin, in a thread of its own."""
+        ...
+
+    def take(self, message: str | bytes) -> None:
+        """Take a message or sound, and return soon. Raises InputError for what is none."""
+        ...
+
+    def close(self) -> None:
+        """End soon; from any thread."""
+        ...
+
+    def join(self, timeout: float) -> None:
+        """Wait until it has ended, and let go of all it holds."""
+        ...
+
+
+class Visit:
+    """A page and its party. messages, sound: what it may send a second, in messages and in bytes of sound."""
+
+    def __init__(self, socket: Any, party: Party, outbox: Outbox, *, messages: float, sound: float) -> None:
+        self.party = party
+        self._socket, self._outbox = socket, outbox
         self._messages, self._sound = Allowance(messages, 2 * messages), Allowance(sound, sound + LARGEST_MESSAGE)
         self._too_many = 0
         self._let_go, self._over = asyncio.Event(), asyncio.Event()
 
     async def last(self) -> None:
-        """Carry messages both ways until the page has left, and end the conversation then."""
-        self._conversation.start()
+        """Carry messages both ways until the page has left, and end the party then."""
+        self.party.start()
         ways = [asyncio.create_task(way) for way in (self._from_page(), self._to_page(), self._until_let_go())]
         try:
             done, _ = await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
@@ -83,12 +97,12 @@ class Visit:
         finally:
             for way in ways:
                 way.cancel()
-            self._conversation.close()
-            await asyncio.to_thread(self._conversation.join, FAREWELL)
+            self.party.close()
+            await asyncio.to_thread(self.party.join, FAREWELL)
             self._over.set()
 
     async def leave(self) -> None:
-        """Let the page go, because its person came back on another, and wait until the conversation has ended."""
+        """Let the page go, because its person came back on another, and wait until the party has ended."""
         self._let_go.set()
         await self._over.wait()
 
@@ -117,23 +131,6 @@ class Visit:
                     return
                 continue
             try:
-                self._pass_on(message)
+                self.party.take(message)
             except InputError as error:
                 self._outbox.put(complaint(error))
-
-    def _pass_on(self, message: str | bytes) -> None:
-        if isinstance(message, bytes):
-            self._conversation.hear(message)
-            return
-        said = message_from_text(message)
-        if isinstance(said, Typed):
-            self._conversation.type(said.text)
-        elif isinstance(said, Typing):
-            self._conversation.expect(said.text)
-        elif isinstance(said, Pointed):
-            self._conversation.point(Frame(self._conversation.clock.now(), said.head, (said.wrist,)))
-        elif isinstance(said, Microphone):
-            if not said.on:
-                self._conversation.hush()
-        elif isinstance(said, Hello):
-            raise MessageError("found hello again, expected it once", field="type")
