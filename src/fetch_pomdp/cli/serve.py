@@ -10,10 +10,15 @@ from typing import Annotated
 
 import typer
 
+from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.adapters.web.hall import Config
+from fetch_pomdp.adapters.web.participation.registry import Venue
 from fetch_pomdp.adapters.web.protocol import scene_asked_for
 from fetch_pomdp.adapters.web.server import serve
 from fetch_pomdp.errors import InputError
+from fetch_pomdp.study.participation import load_participation
+
+PARTICIPANTS = "sqlite:///participants.db"  # in the working folder
 
 Table = Annotated[
     str,
@@ -27,6 +32,17 @@ Token = Annotated[str | None, typer.Option(help="What a page must know to come i
 Data = Annotated[Path | None, typer.Option(metavar="DIR", help="Keep each interaction in this folder, as it happens.")]
 Insight = Annotated[bool, typer.Option("--no-insight", help="Do not show what the robot believes, nor why it acts.")]
 
+StudyFile = Annotated[
+    Path | None, typer.Option("--study", metavar="F.toml", help="Let people take part in this study.")
+]
+Database = Annotated[
+    str | None,
+    typer.Option(metavar="URL", help=f"Where a study's participants are kept.  [default: {PARTICIPANTS}]"),
+]
+ResearcherToken = Annotated[
+    str | None, typer.Option(metavar="TOKEN", help="What the researcher's page must know.  [default: a new one]")
+]
+
 SHORTEST_TOKEN = 16
 
 
@@ -38,18 +54,48 @@ def serve_page(
     token: Token = None,
     data: Data = None,
     no_insight: Insight = False,
+    study: StudyFile = None,
+    database: Database = None,
+    researcher_token: ResearcherToken = None,
 ) -> None:
-    """Open a page on which people talk to the robot, type to it and point. Stop with Ctrl-C."""
+    """Open a page on which people talk to the robot, type to it and point. Stop with Ctrl-C.
+
+    With --study people take part in a study there, from consent to completion code.
+    """
     if not _is_loopback(host) and token is None:
         suggestion = secrets.token_urlsafe(16)
         raise InputError(f"found none for {host}, expected one, such as --token {suggestion}", field="--token")
-    if token is not None and len(token) < SHORTEST_TOKEN:
-        raise InputError(f"found {len(token)} letters, expected {SHORTEST_TOKEN} or more", field="--token")
+    _long_enough(token, "--token")
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
     shown = f"[{host}]" if ":" in host else host
     address = f"http://{shown}:{port}/{f'#token={token}' if token else ''}"
     config = Config(scene=scene_asked_for(scene), token=token, data=data, insight=not no_insight)
-    serve(config, host, port, lambda: print(f"The robot is at {address}  (Ctrl-C ends it)", flush=True))
+    venue = None if study is None else _venue(study, data, database, researcher_token)
+
+    def ready() -> None:
+        print(f"The robot is at {address}  (Ctrl-C ends it)", flush=True)
+        if venue is not None:
+            print(f"The researcher's page is http://{shown}:{port}/researcher.html#token={venue.token}", flush=True)
+
+    if venue is None and (database or researcher_token) is not None:
+        found = "--database" if database is not None else "--researcher-token"
+        raise InputError("found no study, expected one beside it", field=found)
+    serve(config, host, port, ready, venue=venue)
+
+
+def _venue(study: Path, data: Path | None, database: str | None, token: str | None) -> Venue:
+    if data is not None:
+        raise InputError(
+            "found a folder beside --study, expected none: a study is kept in its database", field="--data"
+        )
+    _long_enough(token, "--researcher-token")
+    programme = load_participation(study)
+    return Venue(programme, Store.open(database or PARTICIPANTS), token or secrets.token_urlsafe(24))
+
+
+def _long_enough(token: str | None, field: str) -> None:
+    if token is not None and len(token) < SHORTEST_TOKEN:
+        raise InputError(f"found {len(token)} letters, expected {SHORTEST_TOKEN} or more", field=field)
 
 
 def _is_loopback(host: str) -> bool:

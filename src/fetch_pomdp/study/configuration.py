@@ -35,11 +35,13 @@ def load_study(path: str | Path) -> Study:
     return read_toml(path, StudyError).build(lambda data: study_from_mapping(data, folder))
 
 
-def study_from_mapping(data: Mapping[str, Any], folder: Path) -> Study:
-    """Build a study from the fields of a file in `folder`."""
+def study_from_mapping(
+    data: Mapping[str, Any], folder: Path, load: Callable[[str | Path], Scene] = Scene.load
+) -> Study:
+    """Build a study from the fields of a file in `folder`; load: makes a scene of a name or path."""
     checks.known(data, FIELDS, "field", StudyError)
     fields: dict[str, Any] = {name: data[name] for name in PLAIN if name in data}
-    layouts = _layouts(data["layouts"], folder) if "layouts" in data else Study().layouts
+    layouts = _layouts(data.get("layouts", list(LAYOUTS)), folder, load)
     fields["layouts"] = {name: changed(scene, data, StudyError) for name, scene in layouts.items()}
     if "paradigms" in data:
         table = checks.mapping(data["paradigms"], "paradigms", StudyError)
@@ -52,7 +54,7 @@ def study_from_mapping(data: Mapping[str, Any], folder: Path) -> Study:
     return Study(**fields)
 
 
-def _layouts(value: object, folder: Path) -> dict[str, Scene]:
+def _layouts(value: object, folder: Path, load: Callable[[str | Path], Scene]) -> dict[str, Scene]:
     if not isinstance(value, list | tuple):
         raise StudyError(f"found {shown(value)}, expected a list of names and of paths of TOML files", field="layouts")
     layouts: dict[str, Scene] = {}
@@ -62,7 +64,7 @@ def _layouts(value: object, folder: Path) -> dict[str, Scene]:
         if name in layouts:
             raise StudyError(f"found {name!r} twice, expected layouts of different names", field="layouts")
         source = given if given in LAYOUTS else folder / given
-        layouts[name] = _elsewhere("layouts", lambda source=source: Scene.load(source))  # type: ignore[misc]
+        layouts[name] = _elsewhere("layouts", lambda source=source: load(source))  # type: ignore[misc]
     return layouts
 
 

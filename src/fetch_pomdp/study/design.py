@@ -21,7 +21,7 @@ from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.trial import Assignment
 
 MOST = 10**9  # people, trials
-PERSON, ORDER, WORLD, ROBOT = range(4)  # what a stream of random numbers is for
+PERSON, ORDER, WORLD, ROBOT, PRACTICE = range(5)  # what a stream of random numbers is for
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -152,14 +152,19 @@ def stream(study: Study, use: int, *place: int) -> Generator:
 def assignments(study: Study) -> Iterator[Assignment]:
     """Yield the trials of a study, person by person, each person's in their own shuffled order."""
     for person in range(study.people):
-        layout = study.layout_of(person)
-        rows = [
-            (paradigm, item.id)
-            for paradigm in study.paradigms
-            for item in study.layouts[layout].items
-            for _ in range(study.trials)
-        ]
-        shuffled = stream(study, ORDER, person).permutation(len(rows)).tolist()
-        for order, row in enumerate(shuffled):
-            paradigm, desired = rows[row]
-            yield Assignment(person, layout, paradigm, desired, order)
+        yield from assignments_of(study, person)
+
+
+def assignments_of(study: Study, person: int) -> Iterator[Assignment]:
+    """Yield the trials of one person, in their own shuffled order."""
+    layout = study.layout_of(person)
+    rows = [
+        (paradigm, item.id)
+        for paradigm in study.paradigms
+        for item in study.layouts[layout].items
+        for _ in range(study.trials)
+    ]
+    shuffled = stream(study, ORDER, person).permutation(len(rows)).tolist()
+    for order, row in enumerate(shuffled):
+        paradigm, desired = rows[row]
+        yield Assignment(person, layout, paradigm, desired, order)

@@ -18,6 +18,7 @@ from fetch_pomdp.adapters.web.journal import Journal
 from fetch_pomdp.adapters.web.protocol import Message, Microphone, Pointed, Typed, Typing, message_from_text
 from fetch_pomdp.adapters.web.robot import ARM, SPEAK, PageRobot
 from fetch_pomdp.adapters.web.tell import Told, View, complaint, saying
+from fetch_pomdp.core.events import Event
 from fetch_pomdp.core.interaction import Timing
 from fetch_pomdp.core.live import LIVE, Did, Ended, Heard, Inbox, LiveRobot, LiveSession, RealClock, Update
 from fetch_pomdp.core.planners.base import prepare
@@ -168,8 +169,8 @@ class Conversation:
         """Write down what has happened, then tell it: what a page has seen is never lost."""
         if self._leaving.is_set() or (isinstance(update, Ended) and update.picked is None):
             return
-        if isinstance(update, Did | Heard):
-            self._journal.write(update.event)
+        if isinstance(update, Did | Heard) and not self._written(update.event):
+            return
         if isinstance(update, Heard) and update.event.words:
             self._heard_at = self.clock.now()
         if isinstance(update, Heard) and self.clock.now() - self._heard_at > IDLE:
@@ -177,3 +178,15 @@ class Conversation:
         told = self._view(update, self._agent)
         if told is not None:
             self._tell(told)
+
+    def _written(self, event: Event) -> bool:
+        """Write an event down; a conversation that cannot be written down any more ends."""
+        try:
+            self._journal.write(event)
+        except Exception as error:
+            logger.exception("a journal broke")
+            self._leaving.set()
+            self._session.close()
+            self._tell(complaint(error, "broken"))
+            return False
+        return True

@@ -8,9 +8,11 @@ from collections.abc import Callable
 from importlib.resources import files
 from typing import Any
 
-from fetch_pomdp.adapters.web.ears import hearing_if_installed, voice_if_installed
+from fetch_pomdp.adapters.speech.espeak import Voice
+from fetch_pomdp.adapters.web.ears import Hearing, hearing_if_installed, voice_if_installed
 from fetch_pomdp.adapters.web.gate import Gate
-from fetch_pomdp.adapters.web.hall import Config, Hall
+from fetch_pomdp.adapters.web.hall import Config, Hall, Reception
+from fetch_pomdp.adapters.web.participation.registry import Venue
 from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
 from fetch_pomdp.adapters.web.talks import Talks
 from fetch_pomdp.adapters.web.tell import SENTENCES
@@ -34,13 +36,16 @@ HEADERS = {
 }
 
 
-def create_app(config: Config) -> Any:
-    """Return the FastAPI application. Raises MissingExtraError without FastAPI."""
+def create_app(config: Config, venue: Venue | None = None) -> Any:
+    """Return the FastAPI application; venue: of a study, None for who just wants to talk to the robot.
+
+    Raises MissingExtraError without FastAPI.
+    """
     fastapi = load("fastapi", EXTRA)
     routing, static = load("starlette.routing", EXTRA), load("starlette.staticfiles", EXTRA)
     responses = load("starlette.responses", EXTRA)
     voice, hearing = voice_if_installed(), hearing_if_installed()
-    reception = Talks(config.data, insight=config.insight, voice=voice, hearing=hearing)
+    reception = _reception(config, venue, voice, hearing)
     hall = Hall(config, reception)
 
     async def speak(request: Any) -> Any:
@@ -60,12 +65,19 @@ def create_app(config: Config) -> Any:
         routing.WebSocketRoute("/session", session),
         routing.Route("/voice/{key}.wav", speak),
         routing.Route("/table.json", table),
+        *([] if venue is None else venue.routes()),
         routing.Mount("/", pages),
     ]
     app = fastapi.FastAPI(routes=routes, docs_url=None, redoc_url=None, openapi_url=None)
     app.state.reception = reception
     app.add_middleware(Doorman, gate=hall.gate)
     return app
+
+
+def _reception(config: Config, venue: Venue | None, voice: Voice | None, hearing: Hearing | None) -> Reception:
+    if venue is None:
+        return Talks(config.data, insight=config.insight, voice=voice, hearing=hearing)
+    return venue.reception(voice, hearing)
 
 
 class Doorman:
@@ -95,13 +107,13 @@ class Doorman:
         await app(scope, receive, guarded)
 
 
-def serve(config: Config, host: str, port: int, ready: Callable[[], None]) -> None:
-    """Serve until interrupted; `ready` is called when pages may come.
+def serve(config: Config, host: str, port: int, ready: Callable[[], None], *, venue: Venue | None = None) -> None:
+    """Serve until interrupted; `ready` is called when pages may come. venue: see `create_app`.
 
     Raises MissingExtraError without uvicorn, InputError for an address that cannot be listened at.
     """
     uvicorn = load("uvicorn", EXTRA)
-    app = create_app(config)
+    app = create_app(config, venue)
     try:
         door = socket.create_server((host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET)
     except OSError as error:

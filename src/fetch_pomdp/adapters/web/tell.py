@@ -14,7 +14,7 @@ from fetch_pomdp.core.language import split
 from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.words import COURTESY
-from fetch_pomdp.errors import InputError
+from fetch_pomdp.errors import EventError, InputError, StoreError
 from fetch_pomdp.files.decisions import decision_to_json
 from fetch_pomdp.files.events import action_to_json, event_to_json
 
@@ -109,5 +109,6 @@ def _unknown(event: Observed, agent: Agent) -> list[str]:
 
 def complaint(error: Exception, code: str = "refused") -> Told:
     """Return an error as a page is told of it; what is none of the person's making is not described."""
-    text = str(error) if isinstance(error, InputError) else "something went wrong on the server"
+    theirs = isinstance(error, InputError) and not isinstance(error, EventError | StoreError)
+    text = str(error) if theirs else "something went wrong on the server"
     return {"type": "error", "code": code, "message": text}
