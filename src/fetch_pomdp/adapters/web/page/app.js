@@ -8,6 +8,7 @@ import { Labels } from "./labels.js";
 import { Mind } from "./mind.js";
 import { Speech } from "./speech.js";
 import { Stage } from "./stage.js";
+import { Study } from "./study.js";
 import { chosenLanguage, english, isEnglish, setLanguage, text } from "./texts.js";
 
 const $ = (selector) => document.querySelector(selector);
@@ -27,6 +28,8 @@ const mind = new Mind();
 const speech = new Speech(connection, (words) => say(words), (error) => show(text("no_microphone", { reason: error })));
 const editor = new Editor(stage, labels, (toml) => begin({ toml }));
 const arm = new Arm(stage, (place) => { if (!held && !editor.open) pointTo(place); }, () => { if (!held) endPointing(); }, () => begin(table()));
+
+const study = new Study({ connection, stage, labels, announce, bubble, quiet: () => { speech.stop(); if (pointing !== null) endPointing(); }, choose: (language) => choose(language) });
 
 function makeStage() {
   try {
@@ -58,6 +61,7 @@ function show(line) {
 
 function told(message) {
   ({ welcome, belief, decided, observed: happened, action: acted, say: spoken, status, ended, error })[message.type]?.(message);
+  study.told(message);
 }
 
 function welcome(message) {
@@ -81,7 +85,7 @@ function welcome(message) {
   if (message.belief) believe(message.belief, false);
   if (message.picked) ended(message);
   else if (message.resumed) show(text("resumed"));
-  else bubble("greeting", 6000);
+  else if (!study.on) bubble("greeting", 6000);
 }
 
 function believe(shares, provisional) {
@@ -136,8 +140,8 @@ function ended({ picked }) {
   announce(text("got", { item: picked }));
 }
 
-function error({ message }) {
-  if (!editor.refused(message)) show(text("refused", { message }));
+function error({ code, message }) {
+  if (!editor.refused(message)) show(text(code === "broken" && study.on ? "broken" : "refused", { message }));
 }
 
 // What the robot says: as a bubble, and to screen readers.
@@ -261,13 +265,16 @@ document.addEventListener("keydown", (event) => {
   if (event.key !== "Escape") return;
   for (const [button, panel] of [["#options", "#settings"], ["#edit", "#editor"]]) if (!$(panel).hidden) { $(button).click(); $(button).focus(); }
 });
-$("#language").addEventListener("change", () => {
-  setLanguage($("#language").value);
+function choose(language) {
+  $("#language").value = language;
+  setLanguage(language);
   changed(state);
   arm.speak();
   if (scene) { labels.set(scene, insight); if (latest) believe(latest, false); editor.load(scene); stage?.draw(); }
   if (mind.decided) mind.decide(mind.decided);
-});
+  study.again();
+}
+$("#language").addEventListener("change", () => choose($("#language").value));
 const table = () => ($("#scene").value === "own" ? { toml: own ?? editor.toml() } : $("#scene").value);
 $("#scene").addEventListener("change", () => begin(table()));
 $("#planner").addEventListener("change", () => begin(table()));

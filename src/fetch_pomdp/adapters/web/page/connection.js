@@ -17,6 +17,11 @@ export class Connection {
 
   get resume() { return sessionStorage.getItem("resume"); }
 
+  get participant() { return localStorage.getItem("participant"); } // of a study: who closes the page may come back later
+
+  // Know nothing more of the participant.
+  forget() { localStorage.removeItem("participant"); }
+
   // Begin an interaction; without a scene, go on with the last one.
   begin(hello) {
     if (hello) sessionStorage.removeItem("resume");
@@ -40,16 +45,14 @@ export class Connection {
     address.hash = "";
     const socket = new WebSocket(address);
     this.#socket = socket;
-    socket.onopen = () => this.send({ type: "hello", version: 1, ...this.#hello, resume: this.resume, token: this.token });
+    socket.onopen = () => this.send({ type: "hello", version: 1, ...this.#hello, resume: this.resume, participant: this.participant, token: this.token });
     socket.onmessage = ({ data }) => this.#received(JSON.parse(data));
     socket.onclose = ({ code }) => this.#lost(code);
   }
 
   #received(message) {
-    if (message.type === "welcome") {
-      this.#attempts = 0;
-      sessionStorage.setItem("resume", message.resume);
-    }
+    if (message.type === "welcome" || message.type === "stage") this.#attempts = 0;
+    if (message.resume) (message.type === "stage" ? localStorage : sessionStorage).setItem(message.type === "stage" ? "participant" : "resume", message.resume);
     this.told(message);
   }
 

@@ -1,11 +1,13 @@
 // The items' names, and the belief in them, over the picture; for the keyboard, buttons that point.
 
+import { kind } from "./names.js";
 import { percent, text } from "./texts.js";
 
 export class Labels {
   constructor(list, pointAt) {
     this.list = list;
     this.pointAt = pointAt; // called with an item's id
+    this.described = null; // in studies: an item in words, in the place of its id
     this.entries = new Map();
   }
 
@@ -17,7 +19,7 @@ export class Labels {
       const entry = document.createElement("li"), button = document.createElement("button"), bar = document.createElement("span");
       const name = document.createElement("span"), share = document.createElement("span");
       button.type = "button";
-      name.textContent = item.id;
+      name.textContent = this.described ? kind(item) : item.id;
       bar.className = "bar";
       bar.setAttribute("aria-hidden", "true");
       bar.append(document.createElement("i"));
@@ -27,7 +29,7 @@ export class Labels {
       button.addEventListener("click", () => this.pointAt(item.id));
       entry.append(bar, button);
       this.list.append(entry);
-      this.entries.set(item.id, { entry, button, share, item });
+      this.entries.set(item.id, { entry, button, name, share, item });
       this.#name(item.id, null);
     }
   }
@@ -45,6 +47,15 @@ export class Labels {
     for (const [each, { entry }] of this.entries) entry.classList.toggle("about", each === id);
   }
 
+  // Say which item the person is to get.
+  desire(id, words) {
+    for (const [each, { entry, name, item }] of this.entries) {
+      entry.classList.toggle("desired", each === id);
+      name.textContent = each === id ? words : kind(item);
+      this.#name(each, null);
+    }
+  }
+
   hide(id) {
     for (const [each, { entry }] of this.entries) entry.classList.toggle("gone", each === id);
   }
@@ -60,7 +71,8 @@ export class Labels {
   }
 
   #name(id, share) {
-    const label = share === null || !this.insight ? text("point_at", { item: id }) : text("point_at_believed", { item: id, percent: percent(share) });
-    this.entries.get(id).button.setAttribute("aria-label", label);
+    const { button, item, name } = this.entries.get(id);
+    const label = share === null || !this.insight ? text("point_at", { item: this.described?.(item) ?? id }) : text("point_at_believed", { item: id, percent: percent(share) });
+    button.setAttribute("aria-label", this.described ? `${name.textContent}: ${label}` : label);
   }
 }

@@ -5,7 +5,7 @@ import { frame, outline, place, section, vector } from "./geometry.js";
 import { Robot } from "./robot.js";
 import { dispose, thing } from "./things.js";
 
-const ACCENT = 0x1d6f6a;
+const ACCENT = 0x1d6f6a, RING = 0xc2410c;
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const BEHIND = 0.4; // m, of the robot's middle beyond the table's edge
 const TABLE = 0.04; // m thick
@@ -32,6 +32,9 @@ export class Stage {
     this.light.shadow.normalBias = 0.01;
     this.world.add(new THREE.HemisphereLight(0xffffff, 0xdcd8d2, 1.7), this.light, this.light.target, this.fill, this.fill.target);
     this.robot = new Robot();
+    this.ring = new THREE.Mesh(new THREE.RingGeometry(0.068, 0.08, 64), new THREE.MeshBasicMaterial({ color: RING }));
+    this.ring.visible = false;
+    this.world.add(this.ring);
     this.#pointer();
     new ResizeObserver(() => this.#resize()).observe(canvas);
     setInterval(() => this.#blink(), 4300);
@@ -52,6 +55,13 @@ export class Stage {
     this.#stand();
     this.rest();
     this.#resize();
+  }
+
+  // Lay a ring around the item that the person is to get, for their eyes alone; null takes it away.
+  mark(id) {
+    this.ring.visible = id !== null;
+    if (id) this.ring.position.copy(this.things.get(id).position).add(new THREE.Vector3(0, 0, 0.003));
+    this.draw();
   }
 
   // Move one item, while a table is edited.

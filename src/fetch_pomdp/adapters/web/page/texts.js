@@ -17,6 +17,10 @@ export function setLanguage(name) {
   for (const element of document.querySelectorAll("[data-placeholder]")) element.placeholder = text(element.dataset.placeholder);
 }
 
+export function currentLanguage() {
+  return language;
+}
+
 export function text(key, values = {}) {
   return all[language][key].replace(/\{(\w+)\}/g, (_, name) => values[name]);
 }
