@@ -15,10 +15,10 @@ from fetch_pomdp.adapters.web.hall import Config
 from fetch_pomdp.adapters.web.participation.registry import Venue
 from fetch_pomdp.adapters.web.protocol import scene_asked_for
 from fetch_pomdp.adapters.web.server import serve
+from fetch_pomdp.cli.participants import DATABASE
 from fetch_pomdp.errors import InputError
+from fetch_pomdp.study.from_logs import trials_of
 from fetch_pomdp.study.participation import load_participation
-
-PARTICIPANTS = "sqlite:///participants.db"  # in the working folder
 
 Table = Annotated[
     str,
@@ -37,7 +37,7 @@ StudyFile = Annotated[
 ]
 Database = Annotated[
     str | None,
-    typer.Option(metavar="URL", help=f"Where a study's participants are kept.  [default: {PARTICIPANTS}]"),
+    typer.Option(metavar="URL", help=f"Where a study's participants are kept.  [default: {DATABASE}]"),
 ]
 ResearcherToken = Annotated[
     str | None, typer.Option(metavar="TOKEN", help="What the researcher's page must know.  [default: a new one]")
@@ -90,7 +90,7 @@ def _venue(study: Path, data: Path | None, database: str | None, token: str | No
         )
     _long_enough(token, "--researcher-token")
     programme = load_participation(study)
-    return Venue(programme, Store.open(database or PARTICIPANTS), token or secrets.token_urlsafe(24))
+    return Venue(programme, Store.open(database or DATABASE), token or secrets.token_urlsafe(24), trials_of)
 
 
 def _long_enough(token: str | None, field: str) -> None:

@@ -49,6 +49,11 @@ class Store:
         """Close all connections."""
         self._database.close()
 
+    def begin(self, study: str, digest: str, people: int) -> None:
+        """Note a study before the first person comes. Raises StoreError if it is there with another digest."""
+        with self._database.writing() as connection:
+            _study(connection, study, digest, people)
+
     def enrol(
         self, study: str, digest: str, people: int, language: str, *, trials: Callable[[int], int]
     ) -> tuple[Participant, str]:

@@ -62,6 +62,10 @@ class Conversation:
         """Begin, in a thread."""
         self._thread.start()
 
+    def wake(self) -> None:
+        """Let the robot go on, though nothing was said or shown yet."""
+        self._came.set()
+
     def close(self) -> None:
         """End, from any thread; what was going on is stopped, and is no part of the journal."""
         self._leaving.set()

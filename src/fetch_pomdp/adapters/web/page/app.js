@@ -29,7 +29,7 @@ const speech = new Speech(connection, (words) => say(words), (error) => show(tex
 const editor = new Editor(stage, labels, (toml) => begin({ toml }));
 const arm = new Arm(stage, (place) => { if (!held && !editor.open) pointTo(place); }, () => { if (!held) endPointing(); }, () => begin(table()));
 
-const study = new Study({ connection, stage, labels, announce, bubble, quiet: () => { speech.stop(); if (pointing !== null) endPointing(); }, choose: (language) => choose(language) });
+const study = new Study({ connection, stage, labels, announce, bubble, show, quiet: () => { speech.stop(); if (pointing !== null) endPointing(); }, choose: (language) => choose(language) });
 
 function makeStage() {
   try {

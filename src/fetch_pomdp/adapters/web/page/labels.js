@@ -7,11 +7,12 @@ export class Labels {
   constructor(list, pointAt) {
     this.list = list;
     this.pointAt = pointAt; // called with an item's id
-    this.described = null; // in studies: an item in words, in the place of its id
+    this.described = null; // in studies: makes words of an item of a scene, in the place of its id
     this.entries = new Map();
   }
 
   set(scene, insight) {
+    this.scene = scene;
     this.insight = insight;
     this.list.replaceChildren();
     this.entries.clear();
@@ -72,7 +73,7 @@ export class Labels {
 
   #name(id, share) {
     const { button, item, name } = this.entries.get(id);
-    const label = share === null || !this.insight ? text("point_at", { item: this.described?.(item) ?? id }) : text("point_at_believed", { item: id, percent: percent(share) });
+    const label = share === null || !this.insight ? text("point_at", { item: this.described?.(item, this.scene) ?? id }) : text("point_at_believed", { item: id, percent: percent(share) });
     button.setAttribute("aria-label", this.described ? `${name.textContent}: ${label}` : label);
   }
 }

@@ -2,8 +2,9 @@
 
 import { currentLanguage, text } from "./texts.js";
 
-const element = (name, properties = {}, ...children) => {
+const element = (name, { lang, ...properties } = {}, ...children) => {
   const made = Object.assign(document.createElement(name), properties);
+  if (lang) made.lang = lang;
   made.append(...children);
   return made;
 };

@@ -58,7 +58,7 @@ export class Stage {
   }
 
   // Lay a ring around the item that the person is to get, for their eyes alone; null takes it away.
-  mark(id) {
+  encircle(id) {
     this.ring.visible = id !== null;
     if (id) this.ring.position.copy(this.things.get(id).position).add(new THREE.Vector3(0, 0, 0.003));
     this.draw();

@@ -38,12 +38,14 @@ export class Study {
     this.on = true;
     const trial = TRIALS.includes(message.stage);
     this.message = message;
+    this.scene = null;
+    this.page.show("");
     document.body.classList.add("study");
     document.body.classList.toggle("reading", !trial);
     $("#paper").hidden = trial;
     $("#task").hidden = !trial;
     $("#withdraw").hidden = ["withdrawn", "declined", "full"].includes(message.stage);
-    this.page.labels.described = (item) => described(item, this.scene);
+    this.page.labels.described = described;
     if (message.stage === "withdrawn") this.page.connection.forget();
     this.#name();
     clearInterval(this.counting);
@@ -72,11 +74,11 @@ export class Study {
   #welcome(message) {
     if (!this.on) return;
     this.scene = message.scene;
-    this.page.stage?.mark(this.message.desired);
+    this.page.stage?.encircle(this.message.desired);
     this.#describe();
     for (const selector of ["#countdown", "#give-up", "#next"]) $(selector).hidden = true;
     this.#enable("#ready", !this.message.running);
-    this.#talking(false);
+    this.#talking(false, "not_yet");
     $("#task-title").focus();
     if (message.asked) {
       this.about = message.asked;
@@ -101,7 +103,7 @@ export class Study {
   #begin({ t }) {
     clearInterval(this.counting);
     $("#countdown").hidden = true;
-    this.#talking(true);
+    this.#talking(true, "own_words");
     this.page.bubble("greeting", 4000);
     if (!this.message.running || document.activeElement === document.body || document.activeElement === $("#task-title")) $("#say").focus();
     this.giving = setTimeout(() => this.#enable("#give-up", true), (this.message.give_up - t) * 1000);
@@ -127,7 +129,7 @@ export class Study {
     if (!this.on) return;
     clearTimeout(this.giving);
     $("#give-up").hidden = true;
-    this.#talking(false);
+    this.#talking(false, "over");
     const item = this.scene.items.find((each) => each.id === picked);
     const line = item ? text("brought", { item: described(item, this.scene) }) : text("brought_none");
     $("#outcome").textContent = line;
@@ -141,10 +143,10 @@ export class Study {
     for (const selector of ["#ready", "#next", "#give-up"]) $(selector).disabled = false;
   }
 
-  #talking(now) {
+  #talking(now, note) {
     for (const control of $("#talk").elements) control.disabled = !now;
     if (!now) $("#answers").hidden = true;
-    $("#say").placeholder = text(now ? "own_words" : "not_yet");
+    $("#say").placeholder = text(note);
   }
 
   #enable(selector, shown) {

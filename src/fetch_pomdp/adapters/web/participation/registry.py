@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from fetch_pomdp.adapters.speech.espeak import Voice
+from fetch_pomdp.adapters.store.exporting import Scored
 from fetch_pomdp.adapters.store.participant import Participant
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.adapters.web.ears import Hearing
@@ -62,14 +63,16 @@ class Registry:
 
 @dataclass(frozen=True, slots=True)
 class Venue:
-    """Where a study takes place. token: what a researcher must know."""
+    """Where a study takes place. token: what a researcher must know; scored: makes rows of trials (`Store.export`)."""
 
     programme: Programme
     store: Store
     token: str
+    scored: Scored
 
     def reception(self, voice: Voice | None, hearing: Hearing | None) -> Registry:
-        """Return who receives the participants."""
+        """Return who receives the participants. Raises StoreError if the study has changed since it began."""
+        self.store.begin(self.programme.name, self.programme.digest, self.programme.people)
         return Registry(self, voice=voice, hearing=hearing)
 
     def routes(self) -> list[Any]:
@@ -104,7 +107,7 @@ class Venue:
         responses, background = load("starlette.responses", EXTRA), load("starlette.background", EXTRA)
         folder = Path(tempfile.mkdtemp(prefix="fetch-pomdp-export-"))
         try:
-            self.store.export(folder / self.programme.name, self.programme.name)
+            self.store.export(folder / self.programme.name, self.programme.name, scored=self.scored)
             made = shutil.make_archive(str(folder / "export"), "zip", folder, self.programme.name)
         except BaseException:
             shutil.rmtree(folder)

@@ -31,7 +31,7 @@ from fetch_pomdp.adapters.web.tell import (
     sensor_status,
 )
 from fetch_pomdp.adapters.web.visit import FAREWELL
-from fetch_pomdp.core.action import Point
+from fetch_pomdp.core.action import Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.live import Decided, Did, Ended, Heard, SensorStatus, Update
@@ -71,7 +71,7 @@ class TellingRobot(PageRobot):
 
 def outward(update: Update, agent: Agent) -> Told | None:
     """Return what a participant may know of an update: what a body would show, and that the robot has heard."""
-    if isinstance(update, Decided):
+    if isinstance(update, Decided) and not isinstance(update.decision.action, Wait):
         return decided(update, agent)
     if isinstance(update, Did) and not update.event.done:
         return event_message(update.event, agent)
@@ -118,9 +118,11 @@ class Round:
         talk = Conversation(
             journal, self._told, view=outward, voice=self._voice, hearing=self._hearing, body=TellingRobot
         )
-        self._tell({"type": "begin", "t": round(talk.clock.now(), 3)})
         self._began(talk)
+        self._tell({"type": "begin", "t": round(talk.clock.now(), 3)})
         talk.start()
+        if journal.events:  # whoever waited for the robot when the connection was lost waits still
+            talk.wake()
         try:
             return self._until_over(talk)
         finally:
