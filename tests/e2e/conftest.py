@@ -30,10 +30,14 @@ class Server:
 
     def start(self) -> None:
         program = str(Path(sys.executable).with_name("fetch-pomdp"))
-        command = [program, "serve", *self._options, "--port", str(self._port), "--data", str(self.data)]
+        command = [program, "serve", *self._options, "--port", str(self._port), *self.keeps()]
         self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         assert self._process.stdout is not None
         assert self.address in self._process.stdout.readline()
+
+    def keeps(self) -> list[str]:
+        """The options that say where it keeps what happens."""
+        return ["--data", str(self.data)]
 
     def kill(self) -> None:
         self._process.send_signal(signal.SIGKILL)

@@ -20,6 +20,7 @@ from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.cli.options import Json, as_json
 from fetch_pomdp.errors import StoreError
 from fetch_pomdp.study.from_logs import trials_of
+from fetch_pomdp.study.participation import template
 
 app = typer.Typer(
     help="People who take part in a study over the page: how far they are, their data.", no_args_is_help=True
@@ -83,6 +84,12 @@ def forget(
         gone = store.forget(code)
     rows = ", ".join(f"{number} {table}" for table, number in gone.rows.items() if table != "participants")
     print(f"deleted {gone.code}: {rows}")
+
+
+@app.command("template")
+def show_template() -> None:
+    """Print a study with people to begin with, for serve --study (docs/study-with-people.md)."""
+    print(template(), end="")
 
 
 @contextlib.contextmanager
