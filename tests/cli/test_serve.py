@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from fetch_pomdp.adapters.store.store import Store
+from fetch_pomdp.study.participation import load_participation
+from tests.adapters.web.participation.small import small_study
 from tests.cli.conftest import Run
 
 
@@ -45,3 +48,33 @@ def test_a_table_too_large_for_a_page_is_refused(run: Run, tmp_path: Path) -> No
     path.write_text("head = [0, 0, 1.6]\n" + "".join(item.format(number) for number in range(10, 51)))
     code, _, error = run("serve", path)
     assert (code, error) == (2, f"fetch-pomdp: {path}: items: found 41, expected at most 40\n")
+
+
+@pytest.mark.parametrize("option", ["--database", "--researcher-token"])
+def test_what_belongs_to_a_study_needs_one(run: Run, option: str) -> None:
+    code, _, error = run("serve", option, "sqlite:///nowhere.db")
+    assert (code, error) == (2, f"fetch-pomdp: {option}: found no study, expected one beside it\n")
+
+
+def test_a_study_has_a_database_and_no_folder(run: Run, tmp_path: Path) -> None:
+    study = str(small_study(tmp_path))
+    code, _, error = run("serve", "--study", study, "--data", tmp_path)
+    assert (code, error.startswith("fetch-pomdp: --data: found a folder beside --study")) == (2, True)
+    code, _, error = run("serve", "--study", study, "--researcher-token", "short")
+    assert (code, error) == (2, "fetch-pomdp: --researcher-token: found 5 letters, expected 16 or more\n")
+
+
+def test_a_study_that_was_changed_is_refused_under_its_name(run: Run, tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path / 'participants.db'}"
+    store = Store.open(url)
+    store.begin("small", "0123456789abcdef", 2)
+    store.close()
+    code, _, error = run("serve", "--study", small_study(tmp_path), "--database", url)
+    assert code == 2
+    assert "study: found 'small' there with other contents (0123456789abcdef, not " in error
+
+
+def test_the_template_is_a_study(run: Run, tmp_path: Path) -> None:
+    code, printed, _ = run("participants", "template")
+    (tmp_path / "own.toml").write_text(printed)
+    assert (code, load_participation(tmp_path / "own.toml").people) == (0, 16)

@@ -114,8 +114,8 @@ def load_participation(path: str | Path) -> Participation:
 
 def participation_from_mapping(data: Mapping[str, Any], folder: Path, name: str) -> Participation:
     """Build a study with real people from the fields of a file in `folder`."""
-    checks.required(data, (SECTION,), StudyError)
     study = study_from_mapping({key: data[key] for key in data if key != SECTION}, folder, live_scene)
+    checks.required(data, (SECTION,), StudyError)
     try:
         given = checks.mapping(data[SECTION], "", StudyError)
         checks.known(given, FIELDS, "field", StudyError)

@@ -35,6 +35,7 @@ export class Paper {
 
   hide() {
     this.shown = null;
+    this.sheet.replaceChildren();
   }
 
   // The stages.

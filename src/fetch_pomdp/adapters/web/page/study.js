@@ -84,6 +84,7 @@ export class Study {
       this.about = message.asked;
       this.page.stage?.ask(message.asked);
       $("#answers").hidden = false;
+      this.#said({ key: "asks" });
     }
   }
 
@@ -104,7 +105,7 @@ export class Study {
     clearInterval(this.counting);
     $("#countdown").hidden = true;
     this.#talking(true, "own_words");
-    this.page.bubble("greeting", 4000);
+    if (!this.message.running) this.page.bubble("greeting", 4000);
     if (!this.message.running || document.activeElement === document.body || document.activeElement === $("#task-title")) $("#say").focus();
     this.giving = setTimeout(() => this.#enable("#give-up", true), (this.message.give_up - t) * 1000);
   }
