@@ -26,7 +26,7 @@ Come = Callable[..., "Participant"]
 class StudyServer(Server):
     """A server with a small study: one round of practice, two that count."""
 
-    def options(self) -> list[str]:
+    def keeps(self) -> list[str]:
         self.data.mkdir(exist_ok=True)
         self.database = self.data / "participants.db"
         study = str(small_study(self.data))

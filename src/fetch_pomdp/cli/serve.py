@@ -43,11 +43,12 @@ ResearcherToken = Annotated[
     str | None, typer.Option(metavar="TOKEN", help="What the researcher's page must know.  [default: a new one]")
 ]
 
+BEGINNING = "ambiguous"
 SHORTEST_TOKEN = 16
 
 
 def serve_page(
-    scene: Table = "ambiguous",
+    scene: Table = BEGINNING,
     *,
     host: Host = "127.0.0.1",
     port: Port = 8000,
@@ -70,6 +71,8 @@ def serve_page(
     shown = f"[{host}]" if ":" in host else host
     address = f"http://{shown}:{port}/{f'#token={token}' if token else ''}"
     config = Config(scene=scene_asked_for(scene), token=token, data=data, insight=not no_insight)
+    if study is not None and scene != BEGINNING:
+        raise InputError(f"found {scene!r} beside --study, expected none: a study has tables of its own", field="SCENE")
     venue = None if study is None else _venue(study, data, database, researcher_token)
 
     def ready() -> None:
