@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PIL import Image, ImageDraw
-from visiting import PATIENCE, served, visited
+from visiting import PATIENCE, listening, served, visited
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -112,6 +112,7 @@ def main() -> None:
     folder = parser.parse_args().frames
     film = Film()
     with served() as address, visited(address, *SIZE) as page:
+        listening(page)
         film.roll(page)
         act(page, film)
     pictures, durations = zip(*film.pictures(), strict=True)

@@ -1,18 +1,50 @@
-"""Draw the pictures of docs/serve.md: a server, Chromium, and a short interaction with it."""
+"""Draw the pictures of docs/serve.md and docs/study-with-people.md: servers, Chromium, and short interactions."""
 
 from __future__ import annotations
 
+import secrets
+import tempfile
 from pathlib import Path
 
-from visiting import PATIENCE, served, visited
+from visiting import PATIENCE, listening, served, visited
+
+from fetch_pomdp.study.participation import template
 
 FOLDER = Path(__file__).parent
+TOKEN = secrets.token_urlsafe()
 
 
 def main() -> None:
-    """Write serve-asks.png, serve-hands-over.png, serve-points.png and serve-phone.png."""
+    """Write serve-*.png and study-*.png."""
     with served() as address:
         draw(address)
+    with tempfile.TemporaryDirectory() as folder:
+        study = Path(folder) / "study.toml"
+        study.write_text(template(), encoding="utf-8")
+        database = f"sqlite:///{folder}/participants.db"
+        with served("--study", str(study), "--database", database, "--researcher-token", TOKEN) as address:
+            draw_study(address)
+
+
+def draw_study(address: str) -> None:
+    """Take part in a study up to a question, and look at the researcher's page."""
+    with visited(address, 1280, 800) as page:
+        page.locator("#paper h2").wait_for()
+        page.screenshot(path=FOLDER / "study-consent.png")
+        for _ in range(2):
+            before = page.locator("#paper h2").inner_text()
+            page.click("#paper .strong")
+            page.wait_for_function("before => document.querySelector('#paper h2')?.innerText !== before", arg=before)
+        page.click("#ready")
+        page.wait_for_function("() => !document.querySelector('#say').disabled")
+        kind = next(kind for kind in ("marker", "spoon", "bowl") if kind in page.locator("#task-item").inner_text())
+        page.fill("#say", f"the {kind}")
+        page.press("#say", "Enter")
+        page.wait_for_timeout(4000)
+        page.screenshot(path=FOLDER / "study-round.png")
+        page.goto(f"{address}researcher.html#token={TOKEN}")
+        page.locator("tbody tr").first.wait_for()
+        page.screenshot(path=FOLDER / "study-researcher.png")
 
 
 def draw(address: str) -> None:
@@ -20,6 +52,7 @@ def draw(address: str) -> None:
     from playwright.sync_api import expect
 
     with visited(address, 1280, 800) as page:
+        listening(page)
         page.fill("#say", "hand me the marker")
         page.press("#say", "Enter")
         expect(page.locator("#bubble")).to_have_text("This one?", timeout=PATIENCE)

@@ -20,12 +20,13 @@ READY = "The robot is listening."
 
 
 @contextmanager
-def served() -> Iterator[str]:
-    """Give the address of a server of one's own."""
+def served(*options: str) -> Iterator[str]:
+    """Give the address of a server of one's own, started with these options."""
     with socket.create_server(("127.0.0.1", 0)) as door:
         port = door.getsockname()[1]
     program = str(Path(sys.executable).with_name("fetch-pomdp"))
-    server = subprocess.Popen([program, "serve", "--port", str(port)], stdout=subprocess.PIPE, text=True)
+    command = [program, "serve", "--port", str(port), *options]
+    server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     try:
         if server.stdout is None or "robot is at" not in server.stdout.readline():
             sys.exit("the server does not start")
@@ -37,13 +38,20 @@ def served() -> Iterator[str]:
 
 @contextmanager
 def visited(address: str, width: int, height: int) -> Iterator[Page]:
-    """Open the page of a server, and wait until the robot listens."""
-    from playwright.sync_api import expect, sync_playwright
+    """Open the page of a server."""
+    from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
         page = browser.new_page(viewport={"width": width, "height": height}, locale="en")
+        page.set_default_timeout(PATIENCE)
         page.goto(address)
-        expect(page.locator("#state")).to_have_text(READY, timeout=PATIENCE)
         yield page
         browser.close()
+
+
+def listening(page: Page) -> None:
+    """Wait until the robot listens."""
+    from playwright.sync_api import expect
+
+    expect(page.locator("#state")).to_have_text(READY, timeout=PATIENCE)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import socket
 from pathlib import Path
+from urllib.parse import parse_qs, urlsplit
 
 import pytest
 
 from fetch_pomdp.adapters.store.store import Store
+from fetch_pomdp.cli.serve import address_of
 from fetch_pomdp.study.participation import load_participation
 from tests.adapters.web.participation.small import small_study
 from tests.cli.conftest import Run
@@ -78,3 +80,11 @@ def test_the_template_is_a_study(run: Run, tmp_path: Path) -> None:
     code, printed, _ = run("participants", "template")
     (tmp_path / "own.toml").write_text(printed)
     assert (code, load_participation(tmp_path / "own.toml").people) == (0, 16)
+
+
+def test_a_token_of_any_letters_arrives_as_it_is() -> None:
+    token = "a+b&c=d%20e#f/ü"
+    address = urlsplit(address_of("::1", 8000, "researcher.html", token))
+    assert (address.netloc, address.path) == ("[::1]:8000", "/researcher.html")
+    assert parse_qs(address.fragment) == {"token": [token]}  # as the page's URLSearchParams reads it
+    assert address_of("127.0.0.1", 8000, "", None) == "http://127.0.0.1:8000/"

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import wave
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, expect
@@ -192,3 +194,74 @@ def test_a_microphone_is_heard(server: Server, chromium: Callable[..., Browser])
         expect(person.find("#log")).to_contain_text("marker", timeout=PATIENCE)
         person.find("#microphone").click()
         assert person.errors == []
+
+
+def test_a_microphone_that_was_let_go_is_off(server: Server, chromium: Callable[..., Browser]) -> None:
+    """Pressed, let go and pressed again while the microphone opens slowly, then let go: no track is left open."""
+    flags = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
+    with chromium(*flags) as browser:
+        context = browser.new_context(permissions=["microphone"], locale="en")
+        context.add_init_script(SLOW_MICROPHONE)
+        person = Person(context, server.address)
+        for movement in ("pointerdown", "pointerup", "pointerdown"):
+            person.find("#microphone").dispatch_event(movement)
+        person.page.wait_for_function(
+            "() => tracks.length === 2 && tracks.some((track) => track.readyState === 'ended')"
+        )
+        expect(person.find("#microphone")).to_have_attribute("aria-pressed", "true")
+        person.find("#microphone").dispatch_event("pointerup")
+        person.page.wait_for_function("() => tracks.every((track) => track.readyState === 'ended')")
+        assert person.errors == []
+
+
+SLOW_MICROPHONE = """
+const open = MediaDevices.prototype.getUserMedia;
+window.tracks = [];
+MediaDevices.prototype.getUserMedia = async function (...wanted) {
+  const stream = await open.apply(this, wanted);
+  tracks.push(...stream.getTracks());
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  return stream;
+};
+"""
+
+
+def test_figure_1_is_told_by_the_real_parts(server: Server, chromium: Callable[..., Browser], tmp_path: Path) -> None:
+    """A person asks for the marker aloud, points between two, says "no" aloud when asked, and gets the other."""
+    sound = tmp_path / "story.wav"
+    write_story(sound)
+    flags = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
+    with chromium(*flags, f"--use-file-for-fake-audio-capture={sound}%noloop") as browser:
+        context = browser.new_context(viewport={"width": 1280, "height": 800}, permissions=["microphone"], locale="en")
+        person = Person(context, server.address)
+        person.find("#options").click()
+        person.find("[name=ears][value=server]").check()
+        person.find("#hold").uncheck()
+        person.find("#options").click()
+        boxes = [person.find(f"#items [data-item={item}]").bounding_box() for item in sorted(MARKERS)]
+        middle = sum(box["x"] + box["width"] / 2 for box in boxes if box) / 2
+        person.page.mouse.move(middle, min(box["y"] for box in boxes if box) - 20)
+        person.find("#microphone").click()
+        person.page.mouse.move(middle, min(box["y"] for box in boxes if box) - 20)
+        person.page.mouse.down()
+        asked = person.asked_about()
+        person.page.mouse.up()
+        assert asked in MARKERS
+        assert {person.got()} == MARKERS - {asked}
+        story = person.log()
+        assert "You pointed at the table" in story
+        assert story.index("marker") < story.index("This one?") < story.index("“no”")
+        assert person.errors == []
+
+
+def write_story(path: Path) -> None:
+    """Write "hand me the green marker" and, when the robot has had the time to ask, "no"."""
+    with wave.open(str(Path(__file__).parents[2] / "examples" / "marker.wav")) as recording:
+        settings, rate = recording.getparams(), recording.getframerate()
+        sound = np.frombuffer(recording.readframes(recording.getnframes()), np.int16)
+    request, answer = sound[: 2 * rate], sound[int(3.9 * rate) : 5 * rate]
+    room = np.random.default_rng(0).normal(0, 30, 20 * rate).astype(np.int16)
+    story = np.concatenate((room[: 2 * rate], request, room[: 5 * rate], answer, room))
+    with wave.open(str(path), "wb") as made:
+        made.setparams(settings)
+        made.writeframes(story.tobytes())

@@ -7,6 +7,7 @@ import logging
 import secrets
 from pathlib import Path
 from typing import Annotated
+from urllib.parse import quote
 
 import typer
 
@@ -68,22 +69,26 @@ def serve_page(
         raise InputError(f"found none for {host}, expected one, such as --token {suggestion}", field="--token")
     _long_enough(token, "--token")
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
-    shown = f"[{host}]" if ":" in host else host
-    address = f"http://{shown}:{port}/{f'#token={token}' if token else ''}"
     config = Config(scene=scene_asked_for(scene), token=token, data=data, insight=not no_insight)
     if study is not None and scene != BEGINNING:
         raise InputError(f"found {scene!r} beside --study, expected none: a study has tables of its own", field="SCENE")
     venue = None if study is None else _venue(study, data, database, researcher_token)
 
     def ready() -> None:
-        print(f"The robot is at {address}  (Ctrl-C ends it)", flush=True)
+        print(f"The robot is at {address_of(host, port, '', token)}  (Ctrl-C ends it)", flush=True)
         if venue is not None:
-            print(f"The researcher's page is http://{shown}:{port}/researcher.html#token={venue.token}", flush=True)
+            print(f"The researcher's page is {address_of(host, port, 'researcher.html', venue.token)}", flush=True)
 
     if venue is None and (database or researcher_token) is not None:
         found = "--database" if database is not None else "--researcher-token"
         raise InputError("found no study, expected one beside it", field=found)
     serve(config, host, port, ready, venue=venue)
+
+
+def address_of(host: str, port: int, page: str, token: str | None) -> str:
+    """Return a page's address, with the token in its fragment, which browsers do not send."""
+    shown = f"[{host}]" if ":" in host else host
+    return f"http://{shown}:{port}/{page}" + (f"#token={quote(token, safe='')}" if token else "")
 
 
 def _venue(study: Path, data: Path | None, database: str | None, token: str | None) -> Venue:

@@ -8,6 +8,7 @@ export class Connection {
   #socket = null;
   #attempts = 0;
   #hello = null;
+  #wish = null;
 
   constructor(told, changed) {
     this.told = told; // called with each message
@@ -34,6 +35,12 @@ export class Connection {
     if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(message instanceof ArrayBuffer ? message : JSON.stringify(message));
   }
 
+  // Withdraw from a study; if the line is lost meanwhile, as soon as it is back.
+  withdraw() {
+    this.#wish = { type: "withdraw" };
+    this.send(this.#wish);
+  }
+
   #connect() {
     if (this.#socket) {
       this.#socket.onclose = null;
@@ -53,6 +60,8 @@ export class Connection {
   #received(message) {
     if (message.type === "welcome" || message.type === "stage") this.#attempts = 0;
     if (message.resume) (message.type === "stage" ? localStorage : sessionStorage).setItem(message.type === "stage" ? "participant" : "resume", message.resume);
+    if (message.stage === "withdrawn") this.#wish = null;
+    else if (message.type === "stage" && this.#wish) this.send(this.#wish);
     this.told(message);
   }
 

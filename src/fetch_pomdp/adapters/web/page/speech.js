@@ -4,11 +4,12 @@ const $ = (selector) => document.querySelector(selector);
 const Recogniser = window.SpeechRecognition ?? window.webkitSpeechRecognition;
 
 export class Speech {
+  #wanted = null; // while the microphone is to be open; another each time, so that what opens late knows that it is not
+
   constructor(connection, heard, failed) {
     this.connection = connection;
     this.heard = heard; // called with words that the browser recognised
     this.failed = failed; // called with why the microphone cannot be used
-    this.on = false;
     const button = $("#microphone");
     button.addEventListener("pointerdown", () => { if ($("#hold").checked) this.start(); });
     for (const kind of ["pointerup", "pointerleave"]) button.addEventListener(kind, () => { if ($("#hold").checked) this.stop(); });
@@ -18,6 +19,7 @@ export class Speech {
     for (const choice of document.querySelectorAll("[name=ears]")) choice.addEventListener("change", () => this.#choose());
   }
 
+  get on() { return this.#wanted !== null; }
 
   // Offer the ways of recognising speech that there are here; an open microphone stays open over a new interaction.
   offer(server) {
@@ -41,51 +43,60 @@ export class Speech {
 
   async start() {
     if (this.on) return;
-    this.on = true;
+    const wanted = {};
+    this.#wanted = wanted;
     $("#microphone").setAttribute("aria-pressed", "true");
     try {
-      if (this.#chosen() === "server") await this.#stream();
-      else this.#listen();
+      if (this.#chosen() === "server") await this.#stream(wanted);
+      else this.#listen(wanted);
     } catch (error) {
-      this.stop();
-      this.failed(error.message);
+      if (this.#wanted === wanted) this.#fail(error.message);
     }
   }
 
   stop() {
     if (!this.on) return;
-    this.on = false;
+    this.#wanted = null;
     $("#microphone").setAttribute("aria-pressed", "false");
     this.recogniser?.stop();
-    if (this.sound) {
-      for (const track of this.sound.stream.getTracks()) track.stop();
-      this.sound.context.close();
-      this.sound = null;
-      this.connection.send({ type: "microphone", on: false });
-    }
+    if (!this.sound) return;
+    silence(this.sound);
+    this.sound = null;
+    this.connection.send({ type: "microphone", on: false });
+  }
+
+  #fail(reason) {
+    this.stop();
+    this.failed(reason);
   }
 
   // Sound to the server: 16 kHz, 16 bit, mono.
-  async #stream() {
+  async #stream(wanted) {
     const stream = await navigator.mediaDevices.getUserMedia({ audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true } });
-    const context = new AudioContext();
-    await context.audioWorklet.addModule("worklet.js");
-    const node = new AudioWorkletNode(context, "pcm", { numberOfOutputs: 0 });
+    const sound = { stream, context: new AudioContext() };
+    try {
+      await sound.context.audioWorklet.addModule("worklet.js");
+      if (this.#wanted !== wanted) return silence(sound); // let go before it was open
+    } catch (error) {
+      silence(sound);
+      throw error;
+    }
+    const node = new AudioWorkletNode(sound.context, "pcm", { numberOfOutputs: 0 });
     node.port.onmessage = ({ data }) => this.connection.send(data);
-    context.createMediaStreamSource(stream).connect(node);
-    this.sound = { stream, context };
+    sound.context.createMediaStreamSource(stream).connect(node);
+    this.sound = sound;
     this.connection.send({ type: "microphone", on: true });
-    if (!this.on) { this.on = true; this.stop(); } // let go before the microphone was open
   }
 
-  #listen() {
-    this.recogniser = new Recogniser();
-    this.recogniser.lang = "en-US";
-    this.recogniser.continuous = true;
-    this.recogniser.onresult = ({ results, resultIndex }) => this.heard(results[resultIndex][0].transcript);
-    this.recogniser.onerror = ({ error }) => { this.stop(); this.failed(error); };
-    this.recogniser.onend = () => this.stop();
-    this.recogniser.start();
+  #listen(wanted) {
+    const recogniser = new Recogniser();
+    this.recogniser = recogniser;
+    recogniser.lang = "en-US";
+    recogniser.continuous = true;
+    recogniser.onresult = ({ results, resultIndex }) => this.heard(results[resultIndex][0].transcript);
+    recogniser.onerror = ({ error }) => { if (this.#wanted === wanted) this.#fail(error); };
+    recogniser.onend = () => { if (this.#wanted === wanted) this.stop(); };
+    recogniser.start();
   }
 
   // The robot speaks: the server's sound if there is one, else the browser's voice.
@@ -99,4 +110,9 @@ export class Speech {
       speechSynthesis.speak(spoken);
     }
   }
+}
+
+function silence({ stream, context }) {
+  for (const track of stream.getTracks()) track.stop();
+  context.close();
 }

@@ -16,7 +16,7 @@ export class Study {
     $("#next").addEventListener("click", () => this.#send("next", "#next"));
     $("#give-up").addEventListener("click", () => this.#send("give_up", "#give-up"));
     $("#withdraw").addEventListener("click", () => $("#leaving").showModal());
-    $("#leave").addEventListener("click", () => page.connection.send({ type: "withdraw" }));
+    $("#leave").addEventListener("click", () => page.connection.withdraw());
   }
 
   // Know of a message that the page has dealt with.
