@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import secrets
 import tempfile
 from pathlib import Path
@@ -20,7 +21,8 @@ def main() -> None:
         draw(address)
     with tempfile.TemporaryDirectory() as folder:
         study = Path(folder) / "study.toml"
-        study.write_text(template(), encoding="utf-8")
+        asks = re.sub(r"^(never|fetch) = .*$", "", template(), flags=re.MULTILINE)
+        study.write_text(asks, encoding="utf-8")
         database = f"sqlite:///{folder}/participants.db"
         with served("--study", str(study), "--database", database, "--researcher-token", TOKEN) as address:
             draw_study(address)
@@ -40,7 +42,8 @@ def draw_study(address: str) -> None:
         kind = next(kind for kind in ("marker", "spoon", "bowl") if kind in page.locator("#task-item").inner_text())
         page.fill("#say", f"the {kind}")
         page.press("#say", "Enter")
-        page.wait_for_timeout(4000)
+        page.locator("#answers").wait_for()
+        page.wait_for_timeout(900)
         page.screenshot(path=FOLDER / "study-round.png")
         page.goto(f"{address}researcher.html#token={TOKEN}")
         page.locator("tbody tr").first.wait_for()
