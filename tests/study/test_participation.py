@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from fetch_pomdp.core.action import Point
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.files.lively import LIVE_MODEL
 from fetch_pomdp.study.participation import Participation, load_participation, template
@@ -30,6 +31,20 @@ def test_the_template_is_the_paper_s_design_with_live_people(paper: Participatio
         assert {trial.scene.model.p_l for trial in trials} == {LIVE_MODEL["p_l"]}
     assert {paper.trials(person)[0].layout for person in (0, 1)} == {"ambiguous", "unambiguous"}
     assert paper.trials(0)[0].scene_name == "ambiguous"
+
+
+@pytest.mark.parametrize(
+    "paradigms", ["", '[paradigms]\nfetch = {planner = "sparse", model = {p_l = 0.95, p_g = 0.1}}']
+)
+def test_the_robot_that_fetches_asks_who_has_said_too_little(tmp_path: Path, paradigms: str) -> None:
+    """Not so the paper's search at a live table's p_l: it would pick at random, or wait for ever."""
+    path = tmp_path / "mine.toml"
+    path.write_text(f'{paradigms}\n[participation]\ntitle = {{en = "Mine"}}\nconsent = {{en = "Yours?"}}')
+    trial = next(each for each in load_participation(path).trials(0) if each.paradigm == "fetch")
+    agent = trial.agent(seed=0)
+    agent.observe("hand me the green marker pen")
+    assert trial.layout == "ambiguous"
+    assert isinstance(agent.act(), Point)
 
 
 def test_the_open_question_comes_before_what_might_lead_its_answer(paper: Participation) -> None:

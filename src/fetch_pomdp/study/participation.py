@@ -114,13 +114,15 @@ def load_participation(path: str | Path) -> Participation:
 
 def participation_from_mapping(data: Mapping[str, Any], folder: Path, name: str) -> Participation:
     """Build a study with real people from the fields of a file in `folder`."""
-    study = study_from_mapping({key: data[key] for key in data if key != SECTION}, folder, live_scene)
+    usual = _template()
+    design = {"paradigms": usual["paradigms"]} | {key: data[key] for key in data if key != SECTION}
+    study = study_from_mapping(design, folder, live_scene)
     checks.required(data, (SECTION,), StudyError)
     try:
         given = checks.mapping(data[SECTION], "", StudyError)
         checks.known(given, FIELDS, "field", StudyError)
         checks.required(given, ("title", "consent"), StudyError)
-        fields = {**_template(), **given}
+        fields = {**usual[SECTION], **given}
         return Participation(
             name=name,
             study=study,
@@ -148,5 +150,4 @@ def template() -> str:
 
 
 def _template() -> Mapping[str, Any]:
-    section: Mapping[str, Any] = parse_toml(template(), "the template", StudyError).data[SECTION]
-    return section
+    return parse_toml(template(), "the template", StudyError).data
