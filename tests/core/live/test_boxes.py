@@ -31,14 +31,27 @@ def test_words_are_taken_once_in_the_order_of_their_ends() -> None:
     assert [word.text for word in inbox.take_words(3.0)] == ["please"]
 
 
-def test_a_flood_drops_the_oldest_frames_and_no_word() -> None:
-    inbox = Inbox(most_frames=10)
+def test_a_flood_drops_the_oldest_frames_and_words() -> None:
+    inbox = Inbox(most_frames=10, most_words=20)
     for k in range(1000):
         inbox.push_frame(frame(k))
         inbox.push_word(Word("marker", k, k))
-    assert inbox.dropped == 990
+    inbox.push_words([Word("stop", k, k) for k in range(1000, 1005)])
+    assert (inbox.dropped, inbox.dropped_words) == (990, 985)
     assert [seen.time for seen in inbox.take_frames(1e9)] == list(range(990, 1000))
-    assert len(inbox.take_words(1e9)) == 1000
+    assert [word.end for word in inbox.take_words(1e9)] == list(range(985, 1005))
+
+
+def test_words_that_come_at_once_are_told_once_and_to_those_alone_who_still_listen() -> None:
+    inbox, told, left = Inbox(), list[object](), list[object]()
+    inbox.subscribe(told.append)
+    leave = inbox.subscribe(left.append)
+    inbox.push_partial((Word("green", 0.0, 0.4), Word("mark", 0.4, 0.8), Word("no", 1.2, 1.4)))
+    leave()
+    inbox.push_words([Word("green", 0.0, 0.4), Word("marker", 0.4, 1.0)])
+    inbox.push_words([])
+    assert (len(told), len(left)) == (2, 1)
+    assert inbox.pending().partial == (Word("no", 1.2, 1.4),)
 
 
 def test_a_final_word_replaces_its_hypothesis() -> None:
@@ -61,7 +74,7 @@ def test_an_arm_that_is_none_is_refused(wrist: tuple[float, float, float]) -> No
 
 
 def test_many_threads_lose_nothing() -> None:
-    inbox, told = Inbox(), list[object]()
+    inbox, told = Inbox(most_words=2000), list[object]()
     inbox.subscribe(told.append)
 
     def push(number: int) -> None:

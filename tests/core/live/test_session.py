@@ -12,7 +12,7 @@ from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.interaction import Timing
-from fetch_pomdp.core.live import BeliefChanged, Ended, Inbox, LiveSession, Update
+from fetch_pomdp.core.live import BeliefChanged, Ended, Heard, Inbox, LiveSession, Update
 from fetch_pomdp.core.ports import Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item
 from tests.core.live.stepped import Stage
@@ -267,6 +267,44 @@ def test_a_listener_that_breaks_ends_nothing() -> None:
     session = LiveSession(stage.agent, stage.robot, Inbox(), listener=broken, clock=stage.clock)
     session.run()
     assert stage.ended == ["bowl-1"]
+
+
+def test_nobody_who_brings_something_waits_for_a_listener_and_what_they_bring_is_shown() -> None:
+    stage, busy, go_on = Stage(Wait()), threading.Event(), threading.Event()
+
+    def slow(update: Update) -> None:
+        if isinstance(update, Heard):  # as if it wrote the event to a disk
+            busy.set()
+            go_on.wait(10)
+        stage.listen(update)
+
+    session = LiveSession(stage.agent, stage.robot, stage.inbox, listener=slow, clock=stage.clock)
+    running = threading.Thread(target=session.run)
+    running.start()
+    assert busy.wait(10)
+    typing = threading.Thread(target=stage.inbox.push_words, args=([Word("marker", 1.0, 1.0)],))
+    typing.start()
+    typing.join(2)
+    waited = typing.is_alive()
+    go_on.set()
+    for thread in (running, typing):
+        thread.join(10)
+    assert not waited
+    shown = [belief.words for _, belief in stage.beliefs if belief.provisional]
+    assert ("marker",) in shown
+
+
+def test_what_a_closed_session_has_not_taken_is_for_the_next_one() -> None:
+    stage = Stage(Wait(), Wait(), Wait())
+    stage.clock.at(0.5, stage.session.close)
+    stage.word(0.5, "marker")
+    stage.run()
+    told = list[Update]()
+    LiveSession(stage.agent, stage.robot, stage.inbox, listener=told.append, clock=stage.clock).run()
+    assert [update.event.observation.words for update in told if isinstance(update, Heard)][0] == ("marker",)
+    assert len([update for _, update in stage.told if isinstance(update, Ended)]) == 1
+    stage.inbox.push_word(Word("spoon", stage.clock.now(), stage.clock.now()))
+    assert isinstance(stage.told[-1][1], Ended), "a session that is over tells nothing more"
 
 
 def test_closing_ends_it_without_a_pick() -> None:

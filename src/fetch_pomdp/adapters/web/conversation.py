@@ -51,11 +51,14 @@ class Conversation:
         self.clock = RealClock(journal.time)
         self._agent = journal.agent()
         self._robot = body(self._say)
-        self._leaving, self._came = threading.Event(), threading.Event()  # came: something to go on with
+        self._over = threading.Event()  # nothing follows
+        self._came = threading.Event()  # something to go on with
         self._heard_at = self.clock.now()
-        self.inbox, self._session = self._rest()
+        self._inbox = Inbox()
+        self._inbox.subscribe(lambda _: self._wake())
+        self._session = self._rest()
         words = listened_for(self._agent.scene)
-        self._ears = None if hearing is None else Ears(hearing, words, lambda: self.inbox, self.clock.now)
+        self._ears = None if hearing is None else Ears(hearing, words, self._inbox, self.clock.now)
         self._thread = threading.Thread(target=self._run, name=f"conversation {journal.name[:8]}", daemon=True)
 
     def start(self) -> None:
@@ -68,7 +71,7 @@ class Conversation:
 
     def close(self) -> None:
         """End, from any thread; what was going on is stopped, and is no part of the journal."""
-        self._leaving.set()
+        self._over.set()
         self._came.set()
         self._session.close()
         if self._ears is not None:
@@ -89,12 +92,14 @@ class Conversation:
         self.heed(message if isinstance(message, bytes) else message_from_text(message))
 
     def heed(self, message: Message | bytes) -> None:
-        """Hear or see what a person says or shows.
+        """Hear or see what a person says or shows; when the interaction is over, nothing any more.
 
         Raises MessageError for hello, and for sound where there are no ears.
         """
         if isinstance(message, bytes):
             self._hear(message)
+        elif self._over.is_set():
+            return
         elif isinstance(message, Typed):
             self._type(message.text)
         elif isinstance(message, Typing):
@@ -107,21 +112,19 @@ class Conversation:
             raise MessageError("found hello again, expected it once", field="type")
 
     def _type(self, text: str) -> None:
-        now = self.clock.now()
-        self._heard_at = now
-        self.inbox.push_partial(None)
-        for part in text.split():
-            self.inbox.push_word(Word(part, now, now))
+        now = self._heard_at = self.clock.now()
+        self._inbox.push_words([Word(part, now, now) for part in text.split()])
+        self._inbox.push_partial(None)
 
     def _expect(self, text: str) -> None:
         """Take the words of a text that is being typed as a hypothesis; the last one may be unfinished."""
         now = self._heard_at = self.clock.now()
         whole = text.split() if text[-1:].isspace() else text.split()[:-1]
-        self.inbox.push_partial(tuple(Word(part, now, now) for part in whole) if text.strip() else None)
+        self._inbox.push_partial(tuple(Word(part, now, now) for part in whole) if text.strip() else None)
 
     def _point(self, frame: Frame) -> None:
         self._heard_at = frame.time
-        self.inbox.push_frame(frame)
+        self._inbox.push_frame(frame)
 
     def _hear(self, pcm: bytes) -> None:
         if self._ears is None:
@@ -132,32 +135,31 @@ class Conversation:
         if self._ears is not None and not microphone.on:
             self._ears.end()
 
-    def _rest(self) -> tuple[Inbox, LiveSession]:
-        inbox = Inbox()
-        inbox.subscribe(lambda _: self._wake(inbox))
+    def _rest(self) -> LiveSession:
         listen, clock = self._listen, self.clock
-        return inbox, LiveSession(self._agent, self._robot, inbox, listener=listen, clock=clock, timing=TIMING)
+        return LiveSession(self._agent, self._robot, self._inbox, listener=listen, clock=clock, timing=TIMING)
 
-    def _wake(self, inbox: Inbox) -> None:
+    def _wake(self) -> None:
         """Begin with the first word or gesture: a noise that is no word, or a text that is deleted, begins nothing."""
-        pending = inbox.pending()
+        pending = self._inbox.pending()
         if pending.words or pending.frames:
             self._came.set()
 
     def _run(self) -> None:
         try:
             self._prepare()
-            while self._journal.picked is None and not self._leaving.is_set():
+            while self._journal.picked is None and not self._over.is_set():
                 self._came.wait()
-                self._came.clear()
                 self._session.run()
-                before = self.inbox
-                self.inbox, self._session = self._rest()
-                for word in before.pending().words:
-                    self.inbox.push_word(word)
+                self._session = self._rest()
+                self._came.clear()
+                self._wake()  # what the session has not taken goes on with it; what it has begins nothing
         except Exception as error:
             logger.exception("a conversation broke off")
             self._tell(complaint(error, "broken"))
+        self._over.set()
+        if self._ears is not None:
+            self._ears.close()
 
     def _prepare(self) -> None:
         self._tell({"type": "status", "sensor": "planner", "state": "slow", "text": "The robot is getting ready."})
@@ -171,7 +173,7 @@ class Conversation:
 
     def _listen(self, update: Update) -> None:
         """Write down what has happened, then tell it: what a page has seen is never lost."""
-        if self._leaving.is_set() or (isinstance(update, Ended) and update.picked is None):
+        if self._over.is_set() or (isinstance(update, Ended) and update.picked is None):
             return
         if isinstance(update, Did | Heard) and not self._written(update.event):
             return
@@ -189,7 +191,7 @@ class Conversation:
             self._journal.write(event)
         except Exception as error:
             logger.exception("a journal broke")
-            self._leaving.set()
+            self._over.set()
             self._session.close()
             self._tell(complaint(error, "broken"))
             return False

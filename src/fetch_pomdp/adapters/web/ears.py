@@ -14,7 +14,6 @@ from fetch_pomdp.adapters.speech.utterances import Detector
 from fetch_pomdp.adapters.speech.worker import SphinxProcess
 from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
 from fetch_pomdp.core.live import Inbox
-from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError, MessageError, MissingExtraError
 
 logger = logging.getLogger(__name__)
@@ -62,11 +61,9 @@ def voice_if_installed() -> Voice | None:
 
 
 class Ears:
-    """Ears of one conversation, opened in a thread when the first sound comes. inbox: returns where words go now."""
+    """Ears of one conversation, opened in a thread when the first sound comes."""
 
-    def __init__(
-        self, hearing: Hearing, vocabulary: Sequence[str], inbox: Callable[[], Inbox], clock: Callable[[], float]
-    ) -> None:
+    def __init__(self, hearing: Hearing, vocabulary: Sequence[str], inbox: Inbox, clock: Callable[[], float]) -> None:
         self._hearing, self._vocabulary, self._inbox, self._clock = hearing, vocabulary, inbox, clock
         self._lock = threading.Lock()
         self._early: list[tuple[bytes, float]] | None = None  # sound that came before the ears were open
@@ -121,13 +118,10 @@ class Ears:
             self._recognizer = StreamingRecognizer(
                 transcriber,
                 self._hearing.detector(),
-                lambda hypothesis: self._inbox().push_partial(hypothesis),
-                self._word,
-                on_alive=lambda: self._inbox().alive(SENSOR, self._clock()),
+                self._inbox.push_partial,
+                self._inbox.push_word,
+                on_alive=lambda: self._inbox.alive(SENSOR, self._clock()),
                 clock=self._clock,
             )
             for pcm, begin in self._early or ():
                 self._recognizer.feed(pcm, begin)
-
-    def _word(self, word: Word) -> None:
-        self._inbox().push_word(word)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Protocol
 
 from fetch_pomdp.adapters.web.gate import Allowance
@@ -63,7 +64,7 @@ class Party(Protocol):
         ...
 
     def take(self, message: str | bytes) -> None:
-        """Take a message or sound, and return soon. Raises InputError for what is none."""
+        """Take a message or sound, one after the other, in a thread. Raises InputError for what is none."""
         ...
 
     def close(self) -> None:
@@ -76,7 +77,11 @@ class Party(Protocol):
 
 
 class Visit:
-    """A page and its party. messages, sound: what it may send a second, in messages and in bytes of sound."""
+    """A page and its party. messages, sound: what it may send a second, in messages and in bytes of sound.
+
+    The party takes what the page sends in a thread of the visit's own, so that nobody else waits for it; the page's
+    next message is read when that is done, so that what is too much for it waits with the page.
+    """
 
     def __init__(self, socket: Any, party: Party, outbox: Outbox, *, messages: float, sound: float) -> None:
         self.party = party
@@ -84,6 +89,7 @@ class Visit:
         self._messages, self._sound = Allowance(messages, 2 * messages), Allowance(sound, sound + LARGEST_MESSAGE)
         self._too_many = 0
         self._let_go, self._over = asyncio.Event(), asyncio.Event()
+        self._taking = ThreadPoolExecutor(1, thread_name_prefix=f"page {party.name[:8]}")
 
     async def last(self) -> None:
         """Carry messages both ways until the page has left, and end the party then."""
@@ -98,6 +104,7 @@ class Visit:
             for way in ways:
                 way.cancel()
             self.party.close()
+            self._taking.shutdown(wait=False, cancel_futures=True)
             await asyncio.to_thread(self.party.join, FAREWELL)
             self._over.set()
 
@@ -131,6 +138,6 @@ class Visit:
                     return
                 continue
             try:
-                self.party.take(message)
+                await asyncio.get_running_loop().run_in_executor(self._taking, self.party.take, message)
             except InputError as error:
                 self._outbox.put(complaint(error))

@@ -21,6 +21,9 @@ logger = logging.getLogger(__name__)
 class Display:
     """Tells a listener, one update at a time. Safe from any thread.
 
+    Who brings something new never waits for a listener that is busy, such as one that writes to a disk: whoever tells
+    it something then shows what is new when it is through.
+
     The belief of a step that goes on is computed from the step's start each time, from all that was heard and seen in
     it, so that a hypothesis that is replaced leaves no trace.
     """
@@ -30,14 +33,13 @@ class Display:
         self._start, self._asked, self._reading = agent.posterior, agent.asked, texts
         self._taken: tuple[Word, ...] = ()  # from the inbox, but not in the agent's belief yet
         self._shown = Observation()
+        self._unseen: float | None = None  # s, when something came that was not looked at yet
 
     def tell(self, update: Update) -> None:
         """Tell the listener; what goes wrong there is logged, and is no matter of the interaction."""
         with self._lock:
-            try:
-                self._listener(update)
-            except Exception:
-                logger.exception("the listener broke")
+            self._tell(update)
+        self._catch_up()
 
     def took(self, words: tuple[Word, ...]) -> None:
         """Know of words that were taken out of the inbox for the observation under way."""
@@ -49,7 +51,8 @@ class Display:
         with self._lock:
             self._start, self._asked, self._taken = self._agent.posterior, self._agent.asked, ()
             self._shown = Observation()
-            self.tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=()))
+            self._tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=()))
+        self._catch_up()
 
     def settle(self, event: Event, time: float) -> None:
         """Tell of an event that the agent has taken, and of the belief that the next step begins with."""
@@ -57,25 +60,45 @@ class Display:
             self._start, self._asked, self._shown = self._agent.posterior, self._agent.asked, Observation()
             if isinstance(event, Acted):
                 self._reading = objections if event.objected else texts
-                self.tell(Did(event))
+                self._tell(Did(event))
             else:
-                self._taken = tuple(word for word in self._taken if word not in event.words)
-                self.tell(Heard(event))
-                self.tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=texts(event.words)))
-            self.look(time)
+                read = frozenset(event.words)
+                self._taken = tuple(word for word in self._taken if word not in read)
+                self._tell(Heard(event))
+                self._tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=texts(event.words)))
+        self.look(time)
 
     def look(self, time: float) -> None:
         """Tell what the belief would be if the step ended now, unless that is as it was."""
-        with self._lock:
-            pending = self._inbox.pending()
-            words = self._taken + pending.words + (pending.partial or ())
-            ray = median_ray(pending.frames, self._agent.problem)
-            observation = Observation(self._reading(words), ray)
-            if observation == self._shown:
-                return
-            self._shown = observation
+        self._unseen = time
+        self._catch_up()
+
+    def _tell(self, update: Update) -> None:
+        try:
+            self._listener(update)
+        except Exception:
+            logger.exception("the listener broke")
+
+    def _catch_up(self) -> None:
+        """Look, if something new came, unless another thread is telling something: that one looks afterwards."""
+        while self._unseen is not None and self._lock.acquire(blocking=False):
             try:
-                belief = self._start.updated(observation, self._asked, self._agent.problem)
-            except InputError:  # impossible by the model: the step's end says so, if the words stay what they are
-                return
-            self.tell(BeliefChanged(time, belief.probabilities, provisional=True, words=texts(words)))
+                time, self._unseen = self._unseen, None
+                if time is not None:
+                    self._look(time)
+            finally:
+                self._lock.release()
+
+    def _look(self, time: float) -> None:
+        pending = self._inbox.pending()
+        words = self._taken + pending.words + (pending.partial or ())
+        ray = median_ray(pending.frames, self._agent.problem)
+        observation = Observation(self._reading(words), ray)
+        if observation == self._shown:
+            return
+        self._shown = observation
+        try:
+            belief = self._start.updated(observation, self._asked, self._agent.problem)
+        except InputError:  # impossible by the model: the step's end says so, if the words stay what they are
+            return
+        self._tell(BeliefChanged(time, belief.probabilities, provisional=True, words=texts(words)))

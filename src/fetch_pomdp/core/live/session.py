@@ -34,8 +34,9 @@ MODEL = "model"  # the name under which an impossible observation is reported
 class LiveSession:
     """One live interaction. `run` goes on until an item is handed over or `close` is called, in a thread of the caller.
 
-    listener: is told each Update, one at a time and in order, by whichever thread makes it, and must return soon (see
-    Outbox). agent, inbox: of this interaction alone.
+    listener: is told each Update, one at a time and in order, by whichever thread makes it. While it is busy the robot
+    waits, and sensors do not (see Outbox for one that is slow). agent: of this interaction alone. inbox: of one session
+    at a time; what a session has not taken is there for the next one.
     """
 
     def __init__(
@@ -55,7 +56,7 @@ class LiveSession:
         self._senses = LiveSenses(inbox, self.clock, self._display, self._vitals)
         self._body = Body(robot, inbox, self._vitals)
         self._looked = 0.0
-        inbox.subscribe(self._came)
+        self._leave_inbox = inbox.subscribe(self._came)
 
     def run(self) -> None:
         """Interact. To be called once."""
@@ -70,6 +71,8 @@ class LiveSession:
                     picked = self.agent.item(event.action).id
         except Closed:
             logger.info("closed")
+        finally:
+            self._leave_inbox()
         self._display.tell(Ended(picked))
 
     def close(self) -> None:

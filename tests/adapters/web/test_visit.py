@@ -1,0 +1,53 @@
+"""What a page may do to the others on its server: nothing."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+
+from fetch_pomdp.adapters.web.outbox import Outbox
+from fetch_pomdp.adapters.web.visit import Visit
+from fetch_pomdp.errors import MessageError
+from tests.adapters.web.people import Guest, Socket
+
+
+def test_nobody_waits_for_what_another_page_sends() -> None:
+    busy, go_on, waited = threading.Event(), threading.Event(), list[bool]()
+
+    def slow(message: str | bytes) -> None:  # noqa: ARG001
+        busy.set()
+        waited.append(not go_on.wait(5))
+
+    async def come() -> list[str | bytes]:
+        socket, guest = Socket(), Guest("slow", slow)
+        visit = Visit(socket, guest, Outbox(asyncio.get_running_loop()), messages=40, sound=64_000)
+        going_on = asyncio.create_task(visit.last())
+        for text in ("one", "two"):
+            socket.send(text)
+        await asyncio.to_thread(busy.wait, 10)
+        go_on.set()  # by the loop itself, which is not the one that waits
+        while len(guest.taken) < 3:
+            await asyncio.sleep(0.01)
+        socket.leave()
+        await going_on
+        return guest.taken[1:]
+
+    assert asyncio.run(come()) == ["one", "two"]
+    assert waited == [False] * 3
+
+
+def test_what_is_no_message_is_told_to_the_page() -> None:
+    def refuse(message: str | bytes) -> None:
+        raise MessageError(f"found {message!r}, expected another")
+
+    async def come() -> Socket:
+        socket = Socket()
+        visit = Visit(socket, Guest("", refuse), Outbox(asyncio.get_running_loop()), messages=40, sound=64_000)
+        going_on = asyncio.create_task(visit.last())
+        while not socket.told:
+            await asyncio.sleep(0.01)
+        socket.leave()
+        await going_on
+        return socket
+
+    assert asyncio.run(come()).told[0]["type"] == "error"
