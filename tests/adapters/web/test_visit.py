@@ -5,8 +5,11 @@ from __future__ import annotations
 import asyncio
 import threading
 
+import pytest
+
 from fetch_pomdp.adapters.web.outbox import Outbox
-from fetch_pomdp.adapters.web.visit import Visit
+from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
+from fetch_pomdp.adapters.web.visit import LEAST_SOUND, POLICY, Visit
 from fetch_pomdp.errors import MessageError
 from tests.adapters.web.people import Guest, Socket
 
@@ -34,6 +37,36 @@ def test_nobody_waits_for_what_another_page_sends() -> None:
 
     assert asyncio.run(come()) == ["one", "two"]
     assert waited == [False] * 3
+
+
+@pytest.mark.parametrize("piece", [b"", bytes(2)])
+def test_sound_in_many_small_pieces_is_too_much(piece: bytes) -> None:
+    async def come() -> tuple[Socket, Guest]:
+        socket, guest = Socket(), Guest("")
+        visit = Visit(socket, guest, Outbox(asyncio.get_running_loop()), messages=40, sound=0)
+        for _ in range(1000):
+            socket.send(piece)
+        await visit.last()
+        return socket, guest
+
+    socket, guest = asyncio.run(come())
+    assert socket.code == POLICY
+    assert len(guest.taken) == 1 + LARGEST_MESSAGE // LEAST_SOUND  # the hello is one
+
+
+def test_a_microphone_s_sound_is_not() -> None:
+    second = 25 * [bytes(1280)]
+
+    async def come() -> Guest:
+        socket, guest = Socket(), Guest("")
+        visit = Visit(socket, guest, Outbox(asyncio.get_running_loop()), messages=40, sound=32_000)
+        for piece in second:
+            socket.send(piece)
+        socket.leave()
+        await visit.last()
+        return guest
+
+    assert asyncio.run(come()).taken[1:] == second
 
 
 def test_what_is_no_message_is_told_to_the_page() -> None:

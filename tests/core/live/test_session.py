@@ -301,7 +301,7 @@ def test_what_a_closed_session_has_not_taken_is_for_the_next_one() -> None:
     stage.run()
     told = list[Update]()
     LiveSession(stage.agent, stage.robot, stage.inbox, listener=told.append, clock=stage.clock).run()
-    assert [update.event.observation.words for update in told if isinstance(update, Heard)][0] == ("marker",)
+    assert next(update.event.observation.words for update in told if isinstance(update, Heard)) == ("marker",)
     assert len([update for _, update in stage.told if isinstance(update, Ended)]) == 1
     stage.inbox.push_word(Word("spoon", stage.clock.now(), stage.clock.now()))
     assert isinstance(stage.told[-1][1], Ended), "a session that is over tells nothing more"

@@ -71,9 +71,9 @@ class Ears:
         self._closed = False
 
     def hear(self, pcm: bytes) -> None:
-        """Take 16-bit mono sound of 16 kHz that ended now. Raises MessageError for half a sample."""
-        if len(pcm) % 2 or len(pcm) > LARGEST_MESSAGE:
-            expected = f"expected an even number, at most {LARGEST_MESSAGE}"
+        """Take 16-bit mono sound of 16 kHz that ended now. Raises MessageError for none and for half a sample."""
+        if len(pcm) % 2 or not 0 < len(pcm) <= LARGEST_MESSAGE:
+            expected = f"expected an even number, from 2 to {LARGEST_MESSAGE}"
             raise MessageError(f"found {len(pcm)} bytes of sound, {expected}")
         begin = self._clock() - len(pcm) / 32_000
         with self._lock:

@@ -37,7 +37,7 @@ class Config:
     insight: bool = True  # whether a person may see what the robot believes and why it acts
     most_people: int = 64  # at once
     messages: float = 40.0  # a second, of one page; twice as many at once
-    sound: float = 64_000.0  # bytes a second, of one page: twice what a microphone sends
+    sound: float = 64_000.0  # bytes a second, of one page: twice what a microphone sends (visit.LEAST_SOUND)
 
 
 class Reception(Protocol):

@@ -20,6 +20,7 @@ logger = logging.getLogger(__name__)
 POLICY, TRY_LATER, TAKEN_OVER = 1008, 1013, 4001
 FAREWELL = 5.0  # s a party may take to end
 FORBEARANCE = 200  # messages too many after which a page is let go
+LEAST_SOUND = 640  # bytes that a piece of sound counts for at least: 20 ms, half of what a microphone sends at once
 
 
 class GoneError(Exception):
@@ -126,12 +127,16 @@ class Visit:
             for told in await self._outbox.take():
                 await send(self._socket, told)
 
+    def _allowed(self, message: str | bytes) -> bool:
+        """Whether a message may come now; each piece of sound is work, however short it is."""
+        if isinstance(message, bytes):
+            return self._sound.take(max(len(message), LEAST_SOUND))
+        return self._messages.take()
+
     async def _from_page(self) -> None:
         while True:
             message = await received(self._socket)
-            amount = len(message) if isinstance(message, bytes) else 1
-            allowance = self._sound if isinstance(message, bytes) else self._messages
-            if not allowance.take(amount):
+            if not self._allowed(message):
                 self._too_many += 1
                 if self._too_many > FORBEARANCE:
                     await close(self._socket, POLICY)
