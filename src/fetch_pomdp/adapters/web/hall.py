@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import logging
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -15,13 +16,21 @@ from fetch_pomdp.adapters.web.gate import Gate
 from fetch_pomdp.adapters.web.outbox import Outbox
 from fetch_pomdp.adapters.web.protocol import Hello, message_from_text
 from fetch_pomdp.adapters.web.tell import Told, complaint
-from fetch_pomdp.adapters.web.visit import POLICY, GoneError, Party, Visit, close, received, send
-from fetch_pomdp.errors import FetchPomdpError, MessageError
+from fetch_pomdp.adapters.web.visit import POLICY, TRY_LATER, GoneError, Party, Visit, close, received, send
+from fetch_pomdp.errors import EventError, FetchPomdpError, MessageError, StoreError
 
 logger = logging.getLogger(__name__)
 
 GREETING = 10.0  # s a page may take to say hello
 PENALTY = 1.0  # s a wrong token costs, so that nobody guesses often
+
+
+class FullError(MessageError):
+    """All seats are taken for now."""
+
+
+# What is no fault of the page's: it may come back by itself.
+FOR_NOW = (FullError, TimeoutError, EventError, StoreError)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,6 +76,7 @@ class Hall:
         self._config, self._reception = config, reception
         self.gate = Gate(config.token)
         self._visits: list[Visit] = []
+        self._arriving = 0  # pages that have a seat, and no visit yet
         # One at a time, of those who come back to the same party: two pages that lost a server come back at once.
         self._doors: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
@@ -91,7 +101,7 @@ class Hall:
     async def _refuse(self, socket: Any, error: Exception) -> None:
         try:
             await send(socket, complaint(error))
-            await close(socket, POLICY)
+            await close(socket, TRY_LATER if isinstance(error, FOR_NOW) else POLICY)
         except GoneError:
             logger.info("a page left before it was refused")
 
@@ -109,19 +119,34 @@ class Hall:
         outbox, config = Outbox(asyncio.get_running_loop()), self._config
         name = self._reception.name(hello)
         async with self._doors.setdefault(name or secrets.token_hex(), asyncio.Lock()):
-            party = await self._party(hello, name, outbox)
-            visit = Visit(socket, party, outbox, messages=config.messages, sound=config.sound)
-            self._visits.append(visit)
+            before = [] if name is None else [visit for visit in self._visits if visit.party.name == name]
+            with self._seat(before):
+                for visit in before:
+                    await visit.leave()
+                party = await self._party(hello, name, outbox)
+                visit = Visit(socket, party, outbox, messages=config.messages, sound=config.sound)
+                self._visits.append(visit)
         return visit
+
+    @contextmanager
+    def _seat(self, before: Sequence[Visit]) -> Iterator[None]:
+        """Keep a seat for a page until it has a visit, which takes that of the visits of its person `before`.
+
+        Raises FullError if there is none.
+        """
+        people = len(self._visits) + self._arriving - len(before)
+        if people >= self._config.most_people:
+            raise FullError(f"found {people} people here, expected you to come back later")
+        self._arriving += 1
+        try:
+            yield
+        finally:
+            self._arriving -= 1
 
     async def _party(self, hello: Hello, name: str | None, outbox: Outbox) -> Party:
         """Return the party that a page goes on with, or a new one."""
         if name is not None:
-            for visit in [each for each in self._visits if each.party.name == name]:
-                await visit.leave()
             party = await asyncio.to_thread(self._reception.returning, hello, outbox.put)
             if party is not None:
                 return party
-        if len(self._visits) >= self._config.most_people:
-            raise MessageError(f"found {len(self._visits)} people here, expected you to come back later")
         return await asyncio.to_thread(self._reception.newcomer, hello, outbox.put)
