@@ -17,7 +17,7 @@ from fetch_pomdp.adapters.web.ears import Ears, Hearing
 from fetch_pomdp.adapters.web.journal import Journal
 from fetch_pomdp.adapters.web.protocol import Message, Microphone, Pointed, Typed, Typing, message_from_text
 from fetch_pomdp.adapters.web.robot import ARM, SPEAK, PageRobot
-from fetch_pomdp.adapters.web.tell import Told, View, complaint, saying
+from fetch_pomdp.adapters.web.tell import Told, View, complaint, saying, sensor_status
 from fetch_pomdp.core.events import Event
 from fetch_pomdp.core.interaction import Timing
 from fetch_pomdp.core.live import LIVE, Did, Ended, Heard, Inbox, LiveRobot, LiveSession, RealClock, Update
@@ -57,8 +57,7 @@ class Conversation:
         self._inbox = Inbox()
         self._inbox.subscribe(lambda _: self._wake())
         self._session = self._rest()
-        words = listened_for(self._agent.scene)
-        self._ears = None if hearing is None else Ears(hearing, words, self._inbox, self.clock.now)
+        self._ears = None if hearing is None else self._ears_of(hearing)
         self._thread = threading.Thread(target=self._run, name=f"conversation {journal.name[:8]}", daemon=True)
 
     def start(self) -> None:
@@ -134,6 +133,10 @@ class Conversation:
     def _hush(self, microphone: Microphone) -> None:
         if self._ears is not None and not microphone.on:
             self._ears.end()
+
+    def _ears_of(self, hearing: Hearing) -> Ears:
+        words = listened_for(self._agent.scene)
+        return Ears(hearing, words, self._inbox, self.clock.now, lambda status: self._tell(sensor_status(status)))
 
     def _rest(self) -> LiveSession:
         listen, clock = self._listen, self.clock

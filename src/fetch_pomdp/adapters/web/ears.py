@@ -13,7 +13,8 @@ from fetch_pomdp.adapters.speech.stream import StreamingRecognizer
 from fetch_pomdp.adapters.speech.utterances import Detector
 from fetch_pomdp.adapters.speech.worker import SphinxProcess
 from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
-from fetch_pomdp.core.live import Inbox
+from fetch_pomdp.core.live import Inbox, SensorStatus, State
+from fetch_pomdp.core.live.vitals import TEXTS
 from fetch_pomdp.errors import AudioError, MessageError, MissingExtraError
 
 logger = logging.getLogger(__name__)
@@ -21,6 +22,7 @@ logger = logging.getLogger(__name__)
 SENSOR = "speech"
 ECHO = 0.4  # s after the robot's last word in which a room may still give it back
 MOST_EARLY = 100  # chunks kept until the ears are open
+AGAIN = 5.0  # s until the ears are tried again that did not open
 
 
 class Hearing:
@@ -60,44 +62,94 @@ def voice_if_installed() -> Voice | None:
         return None
 
 
-class Ears:
-    """Ears of one conversation, opened in a thread when the first sound comes."""
+class Early:
+    """What happened before the ears were open, in time order."""
 
-    def __init__(self, hearing: Hearing, vocabulary: Sequence[str], inbox: Inbox, clock: Callable[[], float]) -> None:
-        self._hearing, self._vocabulary, self._inbox, self._clock = hearing, vocabulary, inbox, clock
+    def __init__(self) -> None:
+        self._sound: list[tuple[bytes, float]] = []
+        self._muted: list[tuple[float, float]] = []
+        self._ended = False
+
+    def hear(self, pcm: bytes, begin: float) -> None:
+        """Keep sound, of a flood the first."""
+        if len(self._sound) < MOST_EARLY:
+            self._sound.append((pcm, begin))
+        self._ended = False
+
+    def mute(self, begin: float, end: float) -> None:
+        """Keep when the robot itself spoke; what was over before there was sound is of no matter."""
+        since = self._sound[0][1] if self._sound else begin
+        self._muted = [stretch for stretch in self._muted if stretch[1] > since] + [(begin, end)]
+
+    def end(self) -> None:
+        """Know that no sound follows for now."""
+        self._ended = True
+
+    def forget_sound(self) -> None:
+        """Keep no sound that nobody can hear any more."""
+        self._sound = []
+
+    def replay(self, recognizer: StreamingRecognizer) -> None:
+        """Let a recogniser hear it."""
+        for begin, end in reversed(self._muted):  # each forgets those that ended long before it
+            recognizer.mute(begin, end)
+        for pcm, begin in self._sound:
+            recognizer.feed(pcm, begin)
+        if self._ended:
+            recognizer.end()
+
+
+class Ears:
+    """Ears of one conversation, opened in a thread when the first sound comes.
+
+    Ears that do not open are tried again with the first sound after AGAIN seconds. tell: is told when they are lost,
+    and when they work again.
+    """
+
+    def __init__(
+        self,
+        hearing: Hearing,
+        vocabulary: Sequence[str],
+        inbox: Inbox,
+        clock: Callable[[], float],
+        tell: Callable[[SensorStatus], None],
+    ) -> None:
+        self._hearing, self._vocabulary, self._inbox, self._clock, self._tell = hearing, vocabulary, inbox, clock, tell
         self._lock = threading.Lock()
-        self._early: list[tuple[bytes, float]] | None = None  # sound that came before the ears were open
+        self._early = Early()
         self._recognizer: StreamingRecognizer | None = None
-        self._closed = False
+        self._opening = self._lost = self._closed = False
+        self._next = 0.0  # s, when they may be opened
 
     def hear(self, pcm: bytes) -> None:
         """Take 16-bit mono sound of 16 kHz that ended now. Raises MessageError for none and for half a sample."""
         if len(pcm) % 2 or not 0 < len(pcm) <= LARGEST_MESSAGE:
             expected = f"expected an even number, from 2 to {LARGEST_MESSAGE}"
             raise MessageError(f"found {len(pcm)} bytes of sound, {expected}")
-        begin = self._clock() - len(pcm) / 32_000
+        now = self._clock()
+        begin = now - len(pcm) / 32_000
         with self._lock:
+            if self._closed:
+                return
             if self._recognizer is not None:
                 self._recognizer.feed(pcm, begin)
                 return
-            if self._early is None:
-                self._early = []
+            if not self._opening and now >= self._next:
+                self._opening = True
                 threading.Thread(target=self._open, name="ears", daemon=True).start()
-            if len(self._early) < MOST_EARLY:
-                self._early.append((pcm, begin))
+            if self._opening:
+                self._early.hear(pcm, begin)
 
     def end(self) -> None:
         """Know that no sound follows for now."""
         with self._lock:
-            if self._recognizer is not None:
-                self._recognizer.end()
+            (self._recognizer or self._early).end()
 
     def mute(self, seconds: float) -> None:
         """Leave out what comes while the robot itself speaks, for `seconds` from now."""
         now = self._clock()
         with self._lock:
-            if self._recognizer is not None:
-                self._recognizer.mute(now, now + seconds + ECHO)
+            (self._recognizer or self._early).mute(now, now + seconds + ECHO)
 
     def close(self) -> None:
         """Hear nothing any more."""
@@ -108,20 +160,34 @@ class Ears:
 
     def _open(self) -> None:
         try:
-            transcriber = self._hearing.process.transcriber(self._vocabulary)
-        except AudioError:
+            transcriber, detector = self._hearing.process.transcriber(self._vocabulary), self._hearing.detector()
+        except Exception:
             logger.exception("the ears do not open")
+            self._failed()
             return
         with self._lock:
             if self._closed:
                 return
             self._recognizer = StreamingRecognizer(
                 transcriber,
-                self._hearing.detector(),
+                detector,
                 self._inbox.push_partial,
                 self._inbox.push_word,
                 on_alive=lambda: self._inbox.alive(SENSOR, self._clock()),
                 clock=self._clock,
             )
-            for pcm, begin in self._early or ():
-                self._recognizer.feed(pcm, begin)
+            self._early.replay(self._recognizer)
+            back = self._lost
+        if back:
+            self._report(State.OK)
+
+    def _failed(self) -> None:
+        with self._lock:
+            self._opening, self._next = False, self._clock() + AGAIN
+            self._early.forget_sound()
+            first, self._lost = not self._lost, True
+        if first and not self._closed:
+            self._report(State.LOST)
+
+    def _report(self, state: State) -> None:
+        self._tell(SensorStatus(SENSOR, state, TEXTS[state].format(name=SENSOR)))
