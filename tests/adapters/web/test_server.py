@@ -268,7 +268,11 @@ def test_more_people_than_there_is_room_for_are_told_so() -> None:
     with house_of(Config(most_people=1)) as house:
         page = house.page()
         page.next("welcome")
-        assert "people" in house.page().next("error")["message"]
+        refused = house.page()
+        assert "people" in refused.next("error")["message"]
+        with pytest.raises(WebSocketDisconnect) as left:
+            refused.next("nothing")
+        assert left.value.code == 1013, "the page tries again after that"
 
 
 def test_who_sends_too_much_is_not_heard_and_then_let_go() -> None:
