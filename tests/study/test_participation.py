@@ -75,11 +75,19 @@ def test_wordings_may_change_and_nothing_else(tmp_path: Path) -> None:
     same = digest("people = 2", "people = 2")
     assert digest("You talk to a robot.", "You talk to this robot.") == same
     assert digest("What did it understand?", "What did it grasp?") == same
+    simulated = "people = 2\nlogs = true\n[clock]\nwait = 0.7\n"
+    assert load_participation(small_study(tmp_path, moved(simulated))).digest == same, "of simulated people alone"
     changes = [
         ("trials = 1", "trials = 2"), ("practice = 1", "practice = 2"), ("0.1", "0.2"),
-        ('id = "ease"', 'id = "effort"'),
+        ('id = "ease"', 'id = "effort"'), ("required = false", "required = true"),
+        ('kind = "scale"\npage = 2', 'kind = "scale"\npage = 3'),
     ]  # fmt: skip
-    assert len({same, *(digest(old, new) for old, new in changes)}) == 5
+    assert len({same, *(digest(old, new) for old, new in changes)}) == 7
+
+
+def moved(front: str) -> str:
+    """The study with other fields before the first of its tables."""
+    return STUDY.replace("people = 2\n", "").replace("[paradigms]", f"{front}[paradigms]")
 
 
 @pytest.mark.parametrize(

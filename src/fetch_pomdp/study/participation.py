@@ -22,6 +22,7 @@ from fetch_pomdp.study.trial import Assignment
 
 SECTION = "participation"
 FIELDS = ("title", "consent", "instructions", "practice", "questions", "keep_sound", "countdown")
+SIMULATED = ("population", "clock", "logs", "real_speech")  # of a study: about simulated people alone
 MOST_PRACTICE = 100
 LONGEST_COUNTDOWN = 60.0  # s
 
@@ -63,11 +64,15 @@ class Participation:
     def digest(self) -> str:
         """A text that changes with what answers and trials depend on.
 
-        Choice: wordings are no part of it, so that a misprint can be mended while a study goes on.
+        Choice: wordings are no part of it, so that a misprint can be mended while a study goes on; of the text that was
+        agreed to a hash is kept with each consent.
         """
-        asked = [[each.id, each.kind, [option.id for option in each.options]] for each in self.questions]
-        plain = {"study": to_plain(self.study), "practice": self.practice, "countdown": self.countdown, "asked": asked}
-        return digest(plain)
+        study = {name: value for name, value in to_plain(self.study).items() if name not in SIMULATED}
+        asked = [
+            [each.id, each.kind, each.page, each.required, [option.id for option in each.options]]
+            for each in self.questions
+        ]
+        return digest({"study": study, "practice": self.practice, "countdown": self.countdown, "asked": asked})
 
     def trials(self, person: int) -> tuple[Header, ...]:
         """Return what each trial of a person is about, in their order; each begins at 0 s."""
