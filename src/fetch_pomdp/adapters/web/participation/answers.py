@@ -42,6 +42,7 @@ def _answer(question: Question, value: Any) -> Any:
     names = [option.id for option in question.options]
     if question.kind == "text":
         text = checks.text(value, question.id, "a text", MessageError).replace("\x00", "")
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
         if len(text) > LONGEST:
             raise MessageError(f"found {len(text)} letters, expected at most {LONGEST}", field=question.id)
         return text
