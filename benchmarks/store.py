@@ -22,6 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from fetch_pomdp.adapters.store.journal import TrialJournal
+from fetch_pomdp.adapters.store.participant import Agreement
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.events import Event, Observed
 from fetch_pomdp.core.gesture import Ray
@@ -78,9 +79,9 @@ def run(url: str, sessions: int, rate: float, seconds: float) -> list[Timed]:
     """Measure a database."""
     store, rng = Store.open(url), np.random.default_rng(0)
     header = Header(scene=Scene.load("ambiguous"), scene_name="ambiguous", target="bowl-1", person=0)
-    trials = []
+    agreed, trials = Agreement(language="en", given={}, text=""), []
     for _ in range(sessions):
-        someone, _ = store.enrol("benchmark", "none", sessions, "en", trials=lambda _: 1)
+        someone, _ = store.enrol("benchmark", "none", sessions, agreed, trials=lambda _: 1)
         trials.append(store.trial(someone.id, "trial", 0, header))
     lock = threading.Lock()
 

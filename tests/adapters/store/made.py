@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from fetch_pomdp.adapters.store.participant import Participant
+from fetch_pomdp.adapters.store.participant import Agreement, Participant
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.action import Pick, Wait
 from fetch_pomdp.core.events import Acted
@@ -23,8 +23,11 @@ def header(person: int, order: int, target: str = "bowl-2", paradigm: str = "nev
     )  # fmt: skip
 
 
+AGREED = Agreement(language="en", given={"taking_part": True, "sound": True}, text="You talk to a robot.")
+
+
 def enrolled(store: Store, study: str = "pilot", people: int = 4, digest: str = "d1") -> tuple[Participant, str]:
-    return store.enrol(study, digest, people, "en", trials=lambda person: 6 + person)
+    return store.enrol(study, digest, people, AGREED, trials=lambda person: 6 + person)
 
 
 def joined(store: Store, study: str = "pilot") -> Participant:

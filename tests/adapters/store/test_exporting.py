@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fetch_pomdp.adapters.store import journal
 from fetch_pomdp.adapters.store.exporting import Exported
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.events import Event, Observed
@@ -68,13 +69,15 @@ def test_what_is_written_is_what_is_exported(trials: list[list[Event]]) -> None:
 def studied(store: Store) -> Store:
     """Two people: one has ended, given up and left trials, practised and answered; one has withdrawn."""
     someone, gone = joined(store), joined(store)
-    store.consent(someone.id, {"sound": True})
     store.trial(someone.id, "practice", 0, header(0, 0)).write(PICKED)
     for order in range(2):
         trial = store.trial(someone.id, "trial", order, header(0, order, "bowl-2" if order else "spoon-1"))
         trial.write(WAITED)
         trial.write(PICKED)
     left = store.trial(someone.id, "trial", 2, header(0, 2))
+    left.note_clock(0.0)
+    for _ in range(2):
+        left = store.trial(someone.id, "trial", 2, header(0, 2))
     left.write(WAITED)
     left.finish(given_up=True)
     store.trial(someone.id, "trial", 3, header(0, 3)).write(WAITED)
@@ -82,16 +85,16 @@ def studied(store: Store) -> Store:
     store.answer(someone.id, "parts", ["names", "pointing"])
     store.trial(gone.id, "trial", 0, header(1, 0)).write(PICKED)
     store.answer(gone.id, "understood", "nothing")
-    store.advance(gone.id, "withdrawn")
+    store.forget(gone.code)
     return store
 
 
 def test_an_export_holds_the_study_and_nothing_of_who_withdrew(studied: Store, tmp_path: Path) -> None:
     folder = tmp_path / "deep" / "out"
-    assert studied.export(folder, scored=trials_of) == Exported("pilot", 2, trials=3, unfinished=1, practice=1)
+    assert studied.export(folder, scored=trials_of) == Exported("pilot", 1, trials=3, unfinished=1, practice=1)
     assert sorted(str(path.relative_to(folder)) for path in folder.rglob("*.*")) == [
-        "answers.csv", "logs/0000-000.jsonl", "logs/0000-001.jsonl", "logs/0000-002.jsonl", "participants.csv",
-        "practice/0000-000.jsonl", "trials.csv", "unfinished/0000-003.jsonl",
+        "answers.csv", "conditions.csv", "logs/0000-000.jsonl", "logs/0000-001.jsonl", "logs/0000-002.jsonl",
+        "participants.csv", "practice/0000-000.jsonl", "trials.csv", "unfinished/0000-003.jsonl",
     ]  # fmt: skip
     assert list(tmp_path.rglob(".*")) == []
     for log in folder.rglob("*.jsonl"):
@@ -104,11 +107,14 @@ def test_an_export_holds_the_study_and_nothing_of_who_withdrew(studied: Store, t
         {"person": "0", "question": "parts", "value": '["names", "pointing"]'},
         {"person": "0", "question": "understood", "value": 'names, "one"\nand more'},
     ]
-    first, second = rows(folder / "participants.csv")
+    assert [tuple(row.values()) for row in rows(folder / "conditions.csv")] == [
+        ("0", "0", "0", "False"), ("0", "1", "0", "False"), ("0", "2", "2", "True"),
+    ]  # fmt: skip
+    (first,) = rows(folder / "participants.csv")
     assert (first["person"], first["stage"], first["trials_done"], first["of"], first["given_up"]) == (
-        "0", "consent", "3", "6", "1",
+        "0", "instructions", "3", "6", "1",
     )  # fmt: skip
-    assert second["stage"] == "withdrawn"
+    assert len(first["consent_text"]) == 64
     assert not {"secret", "id"} & set(first)
 
 
@@ -162,3 +168,14 @@ def test_sound_is_on_the_clock_of_its_trial(store: Store, tmp_path: Path) -> Non
         assert found[start : start + 8_000].tolist() == list(range(8_000))
     assert not found[:16_000].any()
     assert not found[32_000:48_000].any()
+
+
+def test_no_more_sound_of_a_trial_is_kept_than_ten_minutes(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(journal, "MOST_SOUND", 3)
+    someone, second = joined(store), bytes(32_000)
+    for start in (0.0, 1.0):
+        store.trial(someone.id, "trial", 0, header(0, 0)).keep_sound(start, second)
+    again = store.trial(someone.id, "trial", 0, header(0, 0))  # what was kept before counts
+    for start in (2.0, 3.0, 4.0):
+        again.keep_sound(start, second)
+    assert store.forget(someone.code).rows["sounds"] == 3

@@ -24,7 +24,6 @@ MARK = "zanzibar"
 def filled(store: Store, mark: str) -> tuple[str, str]:
     """Somebody whose words, answers and sound hold a mark; return their code and secret."""
     someone, secret = enrolled(store)
-    store.consent(someone.id, {"sound": True})
     for order in range(8):
         trial = store.trial(someone.id, "trial", order, header(someone.person, order))
         for step in range(20):
@@ -39,7 +38,7 @@ def filled(store: Store, mark: str) -> tuple[str, str]:
 def test_all_rows_of_a_person_go_and_nobody_elses(store: Store) -> None:
     (gone, secret), (kept, _) = filled(store, MARK), filled(store, "other")
     assert store.forget(gone).rows == {"participants": 1, "trials": 8, "events": 168, "answers": 1, "sounds": 8}
-    assert store.returning(secret) is None
+    assert store.returning("pilot", secret) is None
     assert [one.code for one in store.progress()] == [kept]
     assert store.forget(kept).rows["events"] == 168
     with pytest.raises(StoreError, match="code: found nobody with it, expected the code of somebody who takes part"):
@@ -121,7 +120,7 @@ def test_a_copy_of_the_file_has_all_that_was_committed(tmp_path: Path) -> None:
         shutil.copy(path, copied)
     store.close()
     backup = Store.open(f"sqlite:///{copied / 'p.db'}")
-    found = backup.returning(secret)
+    found = backup.returning("pilot", secret)
     assert found is not None
     assert isinstance(backup.trial(found.id, "trial", 0, header(0, 0)).events[0].action, Wait)  # type: ignore[union-attr]
     backup.close()

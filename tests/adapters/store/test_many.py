@@ -19,9 +19,10 @@ ENROL = """
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from fetch_pomdp.adapters.store.store import Store
+from tests.adapters.store.made import AGREED
 store = Store.open(sys.argv[1])
 def come(_):
-    return store.enrol("pilot", "d1", 1000, "en", trials=lambda person: 1)[0].person
+    return store.enrol("pilot", "d1", 1000, AGREED, trials=lambda person: 1)[0].person
 with ThreadPoolExecutor(20) as crowd:
     print(*crowd.map(come, range(40)))
 """
@@ -58,7 +59,7 @@ def test_a_killed_writer_loses_nothing_that_was_written(url: str) -> None:
     process.send_signal(signal.SIGKILL)
     written += process.communicate()[0].split()
     store = Store.open(url)
-    someone = store.returning(secret)
+    someone = store.returning("pilot", secret)
     assert someone is not None
     trial = store.trial(someone.id, "trial", 0, header(0, 0))
     assert len(trial.events) - int(written[-1]) in (0, 1), "at most one that was committed and not yet told"

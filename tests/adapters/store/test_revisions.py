@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from typing import Any
 
@@ -15,7 +16,9 @@ from fetch_pomdp.adapters.store.revisions import migrate
 from fetch_pomdp.adapters.store.schema import schema
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.errors import StoreError
-from tests.adapters.store.made import PICKED, WAITED, header, joined
+from fetch_pomdp.files.events import event_to_json
+from fetch_pomdp.files.header import header_to_json
+from tests.adapters.store.made import PICKED, SCENE, WAITED, header
 
 
 @pytest.fixture
@@ -45,20 +48,36 @@ def test_the_revisions_make_the_tables_of_the_schema(database: Database) -> None
     assert len(differences(database)) == 1, "a difference is seen"
 
 
+def written_first(connection: Any) -> None:
+    """Write what a server of the first tables may have: somebody in the middle of a trial, before another."""
+    line, event = json.dumps(header_to_json(header(0, 0))), json.dumps(event_to_json(WAITED, SCENE))
+    when = "2026-01-01T00:00:00Z"
+    who = (1, 1, 0, "x", "K7Q-2MP", "trials", "en", 2, "{}", when, when, None, None, None)
+    rows: list[tuple[str, tuple[object, ...]]] = [
+        ("studies", (1, "pilot", "d1", 4)), ("participants", who),
+        ("trials", (1, 1, "trial", 0, line, 0, False, None)), ("trials", (2, 1, "trial", 1, line, 0, False, None)),
+        ("events", (1, 0, event)), ("answers", (1, "ease", "4")),
+    ]  # fmt: skip
+    for name, values in rows:
+        table = sa.Table(name, sa.MetaData(), autoload_with=connection, resolve_fks=False)
+        connection.execute(table.insert().values(values))
+
+
 def test_an_upgrade_keeps_what_is_there(database: Database, url: str) -> None:
     with database.writing() as connection:
         migrate(connection, "0001")
         assert "sounds" not in sa.inspect(connection).get_table_names()
-    old = Store(database)
-    someone = joined(old)
-    old.trial(someone.id, "trial", 0, header(0, 0)).write(WAITED)
-    old.answer(someone.id, "ease", 4)
+        written_first(connection)
     new = Store.open(url)
-    trial = new.trial(someone.id, "trial", 0, header(0, 0))
-    assert trial.events == (WAITED,)
+    (someone,) = new.progress()
+    assert (someone.code, someone.consent_text) == ("K7Q-2MP", None)
+    trial = new.trial(1, "trial", 0, header(0, 0))
+    assert (trial.events, trial.clock) == ((WAITED,), 0.0)
+    assert new.trial(1, "trial", 1, header(0, 1)).clock is None
+    assert [one.interruptions for one in new.progress()] == [1], "of the trial that had begun"
     trial.keep_sound(0.0, b"\0\1")
     trial.write(PICKED)
-    assert new.forget(someone.code).rows == {"participants": 1, "trials": 1, "events": 2, "answers": 1, "sounds": 1}
+    assert new.forget(someone.code).rows == {"participants": 1, "trials": 2, "events": 2, "answers": 1, "sounds": 1}
     assert differences(database) == []
     new.close()
 
@@ -67,7 +86,7 @@ def test_tables_of_a_later_version_are_left_alone(database: Database, url: str) 
     Store.open(url).close()
     with database.writing() as connection:
         connection.exec_driver_sql("UPDATE alembic_version SET version_num = '0999'")
-    with pytest.raises(StoreError, match="found tables of revision 0999, expected 0002 or an earlier one"):
+    with pytest.raises(StoreError, match="found tables of revision 0999, expected 0003 or an earlier one"):
         Store.open(url)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 import threading
 from datetime import UTC, datetime
@@ -14,7 +15,7 @@ from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.events import Acted
 from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.errors import StoreError
-from tests.adapters.store.made import PICKED, WAITED, enrolled, header, joined
+from tests.adapters.store.made import AGREED, PICKED, WAITED, enrolled, header, joined
 
 
 def test_numbers_are_the_lowest_free_ones(store: Store) -> None:
@@ -38,10 +39,26 @@ def test_only_the_secret_leads_back(store: Store, url: str) -> None:
     someone, secret = enrolled(store)
     store.close()
     again = Store.open(url)
-    assert again.returning(secret) == someone
+    assert again.returning("pilot", secret) == someone
     for wrong in ("", someone.code, secret[:-1], secret + "a", "\ud800"):
-        assert again.returning(wrong) is None
+        assert again.returning("pilot", wrong) is None
     again.close()
+
+
+def test_a_secret_of_one_study_leads_into_no_other(store: Store) -> None:
+    (someone, secret), (other, another) = enrolled(store), enrolled(store, "another")
+    assert store.returning("pilot", secret) == someone
+    assert store.returning("another", another) == other
+    assert store.returning("another", secret) is store.returning("pilot", another) is None
+
+
+def test_who_is_taken_in_has_agreed_in_the_same_commit(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Store, "_change", None)  # whatever would come after it
+    someone, _ = enrolled(store)
+    assert (someone.stage, someone.language, dict(someone.consent)) == ("instructions", "en", AGREED.given)
+    (one,) = store.progress()
+    assert one.consented == one.joined
+    assert one.consent_text == hashlib.sha256(AGREED.text.encode()).hexdigest()
 
 
 def test_codes_are_short_and_read_as_they_are_typed(store: Store) -> None:
@@ -53,26 +70,24 @@ def test_codes_are_short_and_read_as_they_are_typed(store: Store) -> None:
 
 def test_what_somebody_has_done_comes_back(store: Store) -> None:
     someone, secret = enrolled(store)
-    assert (someone.stage, someone.language, someone.consent, someone.answers) == ("consent", "en", {}, {})
-    store.consent(someone.id, {"taking_part": True, "sound": False})
+    assert (someone.stage, someone.answers) == ("instructions", {})
     store.advance(someone.id, "questions")
     store.answer(someone.id, "understood", "names, „löffel“, \x00 and '; DROP TABLE answers")
     store.answer(someone.id, "liked", 3)
     store.answer(someone.id, "liked", ["speed", "ease"])
-    found = store.returning(secret)
+    found = store.returning("pilot", secret)
     assert found is not None
-    assert found.consent == {"taking_part": True, "sound": False}
     assert found.answers == {
         "understood": "names, „löffel“, \x00 and '; DROP TABLE answers", "liked": ["speed", "ease"],
     }  # fmt: skip
     assert (found.stage, found.completion) == ("questions", None)
     store.advance(someone.id, "done")
-    done = store.returning(secret)
+    done = store.returning("pilot", secret)
     assert done is not None
     assert done.completion is not None
     assert done.completion != done.code
     store.advance(someone.id, "done")
-    assert store.returning(secret) == done, "the code at the end does not change"
+    assert store.returning("pilot", secret) == done, "the code at the end does not change"
 
 
 @pytest.mark.parametrize("value", [float("nan"), object(), "\ud800", {1, 2}])
@@ -80,11 +95,11 @@ def test_an_answer_is_json(store: Store, value: object) -> None:
     someone, secret = enrolled(store)
     with pytest.raises(StoreError, match="ease: found what is no JSON"):
         store.answer(someone.id, "ease", value)
-    assert store.returning(secret) == someone
+    assert store.returning("pilot", secret) == someone
 
 
 def test_stages_are_known_and_people_are_there(store: Store) -> None:
-    with pytest.raises(StoreError, match="stage: found 'lunch', expected one of consent, instructions"):
+    with pytest.raises(StoreError, match="stage: found 'lunch', expected one of instructions, practice"):
         store.advance(joined(store).id, "lunch")
     with pytest.raises(StoreError, match="participant: found none, expected somebody who takes part"):
         store.advance(999, "trials")
@@ -96,13 +111,15 @@ def test_a_trial_is_gone_on_with_where_it_was(store: Store) -> None:
     someone = joined(store)
     first = store.trial(someone.id, "trial", 0, header(0, 0))
     assert (first.header, first.events, first.finished, first.given_up) == (header(0, 0), (), False, False)
+    assert first.clock is None
+    first.note_clock(7.25)
     first.write(WAITED)
     stopped = Acted(Pick(0), Outcome.STOPPED, time=2.0)
     first.write(stopped)
     first.close()
     again = store.trial(someone.id, "trial", 0, header(3, 3, "marker-1"))
     assert again.header == header(0, 0), "a trial keeps the header that it began with"
-    assert again.events == (WAITED, stopped)
+    assert (again.events, again.clock) == ((WAITED, stopped), 7.25)
     assert not again.finished
     again.write(PICKED)
     assert again.finished, "a pick that was done is the end"
@@ -118,20 +135,23 @@ def test_progress_counts_trials_without_practice(store: Store) -> None:
     store.advance(early.id, "trials")
     for order in range(2):
         store.trial(early.id, "practice", order, header(0, order)).write(PICKED)
-    store.trial(early.id, "trial", 0, header(0, 0)).write(PICKED)
+    over = store.trial(early.id, "trial", 0, header(0, 0))
+    over.note_clock(0.0)
+    over.write(PICKED)
+    store.trial(early.id, "trial", 0, header(0, 0))  # over: nothing to go on with
     store.trial(early.id, "trial", 1, header(0, 1)).finish(given_up=True)
     left = store.trial(early.id, "trial", 2, header(0, 2))
+    left.note_clock(0.0)  # its clock runs: to leave now is an interruption, though nothing has happened
     for _ in range(2):
-        left.write(WAITED)
         left = store.trial(early.id, "trial", 2, header(0, 2))
     store.trial(early.id, "trial", 3, header(0, 3))
-    store.trial(early.id, "trial", 3, header(0, 3))  # nothing had happened: no interruption
+    store.trial(early.id, "trial", 3, header(0, 3))  # its clock did not run yet: no interruption
     one, other = store.progress("pilot")
     assert (one.person, one.code, one.stage, one.language) == (0, early.code, "trials", "en")
     assert (one.trials_done, one.of, one.interruptions, one.given_up) == (2, 6, 2, 1)
     assert (other.person, other.code, other.trials_done, other.of) == (1, late.code, 0, 7)
     assert one.joined <= one.last <= datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
-    assert one.consented is one.finished is one.completion is None
+    assert one.finished is one.completion is None
     assert store.progress() == (one, other)
 
 

@@ -1,7 +1,7 @@
 """A study written into a folder, as logs and tables that the analysis reads (docs/study-with-people.md).
 
-Choice: `logs` has the trials that are over, and nobody's who has withdrawn; a trial that its person has not ended is
-under `unfinished`, so that it is not taken for one in which the robot never picked.
+Choice: `logs` has the trials that are over; a trial that its person has not ended is under `unfinished`, so that it is
+not taken for one in which the robot never picked.
 """
 
 from __future__ import annotations
@@ -25,9 +25,10 @@ from fetch_pomdp.files.recordings import Recording, read_recording
 Scored: TypeAlias = Callable[[Iterable[tuple[str, Recording]]], Iterable[Any]]  # study.from_logs.trials_of
 PRIVATE = 0o700
 PEOPLE = (
-    "person", "code", "language", "stage", "joined", "consented", "finished", "trials_done", "of", "interruptions",
-    "given_up", "completion",
+    "person", "code", "language", "stage", "joined", "consented", "consent_text", "finished", "trials_done", "of",
+    "interruptions", "given_up", "completion",
 )  # fmt: skip
+CONDITIONS = ("person", "order", "interruptions", "given_up")  # of each trial that is over
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,10 +65,10 @@ def export(connection: Any, folder: Path, study: str | None, scored: Scored) -> 
 
 
 def _written(connection: Any, folder: Path, study: str, scored: Scored) -> Exported:
-    people = progress(connection, study)
+    people, rows = progress(connection, study), _trials(connection, study)
     counts = dict.fromkeys(("logs", "practice", "unfinished"), 0)
-    for row in _trials(connection, study):
-        part = "practice" if row.part == "practice" else "unfinished" if row.finished is None else "logs"
+    for row in rows:
+        part = _part(row)
         counts[part] += 1
         path = folder / part / f"{row.person:04}-{row.number:03}.jsonl"
         path.parent.mkdir(exist_ok=True)
@@ -76,6 +77,9 @@ def _written(connection: Any, folder: Path, study: str, scored: Scored) -> Expor
         write_wav(sound.with_suffix(".wav"), _sounds(connection, row.id))
     logs = sorted((folder / "logs").glob("*.jsonl"))
     _table(folder / "participants.csv", PEOPLE, (_person(one) for one in people))
+    over = sorted((row for row in rows if _part(row) == "logs"), key=lambda row: (row.person, row.number))
+    conditions = ((row.person, row.number, row.interruptions, bool(row.given_up)) for row in over)
+    _table(folder / "conditions.csv", CONDITIONS, conditions)
     _table(folder / "answers.csv", ("person", "question", "value"), _answers(connection, study))
     trials = [dataclasses.asdict(trial) for trial in scored((str(log), read_recording(log)) for log in logs)]
     if trials:
@@ -83,18 +87,23 @@ def _written(connection: Any, folder: Path, study: str, scored: Scored) -> Expor
     return Exported(study, len(people), counts["logs"], counts["unfinished"], counts["practice"])
 
 
+def _part(trial: Any) -> str:
+    """Return the folder that a trial belongs to."""
+    return "practice" if trial.part == "practice" else "unfinished" if trial.finished is None else "logs"
+
+
 def _whose(study: str, *columns: Any) -> Any:
-    """Return a query for what belongs to the people of a study who have not withdrawn."""
+    """Return a query for what belongs to the people of a study."""
     sa, tables = load("sqlalchemy", EXTRA), schema()
     people, studies = tables.participants, tables.studies
     query = sa.select(people.c.person, *columns).join_from(people, studies, people.c.study == studies.c.id)
-    return query.where(studies.c.name == study, people.c.stage != "withdrawn").order_by(people.c.person)
+    return query.where(studies.c.name == study).order_by(people.c.person)
 
 
 def _trials(connection: Any, study: str) -> Sequence[Any]:
     trials, people = schema().trials, schema().participants
-    columns = (trials.c.id, trials.c.part, trials.c.number, trials.c.header, trials.c.finished)
-    query = _whose(study, *columns).join(trials, trials.c.participant == people.c.id)
+    names = ("id", "part", "number", "header", "finished", "interruptions", "given_up")
+    query = _whose(study, *(trials.c[name] for name in names)).join(trials, trials.c.participant == people.c.id)
     found: Sequence[Any] = connection.execute(query.order_by(trials.c.part, trials.c.number)).all()
     return found
 

@@ -20,6 +20,8 @@ from fetch_pomdp.files.header import Header, header_from_json, header_to_json
 from fetch_pomdp.files.scanning import ends
 
 FRESH = 20.0  # s in which a person's time of last writing is not written again
+MOST_SOUND = 600  # s of sound that are kept of a trial
+SECOND = 32_000  # bytes of sound
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,12 +33,19 @@ class Row:
 
 
 class TrialJournal:
-    """A trial that is written as it happens: what a method was given is committed when it returns. From any thread."""
+    """A trial that is written as it happens: what a method was given is committed when it returns. From any thread.
 
-    def __init__(self, database: Database, row: Row, header: Header, events: tuple[Event, ...]) -> None:
-        self._database, self._row, self.header = database, row, header
+    clock: what (s) the trial's clock showed when it was last noted, None before it ran.
+
+    Choice: of a trial's sound no more than MOST_SOUND seconds are kept, so that no page can fill the disk.
+    """
+
+    def __init__(
+        self, database: Database, row: Row, header: Header, events: tuple[Event, ...] = (), clock: float | None = None
+    ) -> None:
+        self._database, self._row, self.header, self.clock = database, row, header, clock
         self._events = list(events)
-        self._sounds: int | None = None
+        self._sounds: tuple[int, int] | None = None  # pieces, bytes
         self._touched = -FRESH
         self._lock = threading.Lock()
         self.finished = False
@@ -74,15 +83,24 @@ class TrialJournal:
                 self._finish(connection, given_up=given_up)
             self.finished, self.given_up = True, given_up
 
+    def note_clock(self, time: float) -> None:
+        """Note what (s) the trial's clock shows: where it goes on when its person has left and comes back."""
+        trials = schema().trials
+        with self._lock, self._database.writing() as connection:
+            connection.execute(trials.update().where(trials.c.id == self._row.trial).values(clock=time))
+            self.clock = time
+
     def keep_sound(self, start: float, pcm: bytes) -> None:
         """Add sound that began at a time (s) of the trial's clock: 16 bit, mono, 16 kHz."""
-        sa_sounds = schema().sounds
+        sounds = schema().sounds
         with self._lock, self._database.writing() as connection:
-            if self._sounds is None:
-                self._sounds = _count(connection, sa_sounds, self._row.trial)
-            values = {"trial": self._row.trial, "number": self._sounds, "start": start, "pcm": pcm}
-            connection.execute(sa_sounds.insert().values(values))
-            self._sounds += 1
+            number, size = self._sounds or _kept(connection, self._row.trial)
+            self._sounds = number, size
+            if size + len(pcm) > MOST_SOUND * SECOND:
+                return
+            values = {"trial": self._row.trial, "number": number, "start": start, "pcm": pcm}
+            connection.execute(sounds.insert().values(values))
+            self._sounds = number + 1, size + len(pcm)
 
     def close(self) -> None:
         """End the use of this journal; all that it holds is in the database already."""
@@ -103,7 +121,7 @@ class TrialJournal:
 def opened(database: Database, participant: int, part: str, order: int, header: Header) -> TrialJournal:
     """Begin a trial, or go on with the one that is there, which keeps its own header.
 
-    A trial that had begun and was not over is counted as interrupted once more.
+    A trial whose clock ran and that was not over is counted as interrupted once more.
     """
     trials = schema().trials
     with database.writing() as connection:
@@ -113,9 +131,9 @@ def opened(database: Database, participant: int, part: str, order: int, header: 
             values = {"participant": participant, "part": part, "number": order, "interruptions": 0, "given_up": False}
             line = as_json(header_to_json(header), "header")
             added = connection.execute(trials.insert().values(**values, header=line))
-            return TrialJournal(database, Row(added.inserted_primary_key[0], participant), header, ())
+            return TrialJournal(database, Row(added.inserted_primary_key[0], participant), header)
         journal = _read(database, connection, found)
-        if journal.events and not journal.finished:
+        if journal.clock is not None and not journal.finished:
             again = {"interruptions": trials.c.interruptions + 1}
             connection.execute(trials.update().where(trials.c.id == found.id).values(again))
     return journal
@@ -124,7 +142,7 @@ def opened(database: Database, participant: int, part: str, order: int, header: 
 def _read(database: Database, connection: Any, found: Any) -> TrialJournal:
     header = header_from_json(json.loads(found.header))
     events = events_of(connection, found.id, header)
-    journal = TrialJournal(database, Row(found.id, found.participant), header, events)
+    journal = TrialJournal(database, Row(found.id, found.participant), header, events, found.clock)
     journal.finished, journal.given_up = found.finished is not None, found.given_up
     return journal
 
@@ -144,7 +162,9 @@ def _event(line: str, number: int, header: Header) -> Event:
         raise StoreError(f"cannot be read: {cause}", field=f"events[{number}]") from None
 
 
-def _count(connection: Any, table: Any, trial: int) -> int:
-    sa = load("sqlalchemy", EXTRA)
-    query = sa.select(sa.func.count()).select_from(table).where(table.c.trial == trial)
-    return int(connection.execute(query).scalar_one())
+def _kept(connection: Any, trial: int) -> tuple[int, int]:
+    """Return how many pieces of sound are kept of a trial, and their bytes."""
+    sa, sounds = load("sqlalchemy", EXTRA), schema().sounds
+    size = sa.func.coalesce(sa.func.sum(sa.func.length(sounds.c.pcm)), 0)
+    pieces, there = connection.execute(sa.select(sa.func.count(), size).where(sounds.c.trial == trial)).one()
+    return int(pieces), int(there)

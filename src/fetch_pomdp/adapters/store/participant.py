@@ -12,8 +12,17 @@ from typing import Any
 
 from fetch_pomdp.errors import StoreError
 
-STAGES = ("consent", "instructions", "practice", "trials", "questions", "done", "withdrawn")
+STAGES = ("instructions", "practice", "trials", "questions", "done")
 LETTERS = "23456789BCDFGHJKMNPQRSTVWXYZ"  # no two alike when read aloud or written by hand, and no vowels: no words
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Agreement:
+    """What somebody has agreed to, and the text that they were shown."""
+
+    language: str
+    given: Mapping[str, bool]
+    text: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,9 +56,9 @@ def code_of(text: str) -> str:
     return f"{letters[:3]}-{letters[3:]}"
 
 
-def hashed(secret: str) -> str:
-    """Return what is kept of a secret: SHA-256, in hexadecimal digits."""
-    return hashlib.sha256(secret.encode("utf-8", "surrogatepass")).hexdigest()
+def hashed(text: str) -> str:
+    """Return what is kept of a secret, or of a text that was agreed to: SHA-256, in hexadecimal digits."""
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
 def now() -> str:

@@ -23,11 +23,12 @@ class Progress:
     language: str
     joined: str
     consented: str | None  # when
+    consent_text: str | None  # hash of the text that they have agreed to
     last: str  # when something was last written, to within half a minute
     finished: str | None
     trials_done: int
     of: int  # how many they are to have
-    interruptions: int  # trials that were left and gone on with
+    interruptions: int  # how often a trial was left after its beginning and gone on with
     given_up: int
     completion: str | None  # the code that was shown to them at the end
 
@@ -41,7 +42,18 @@ def progress(connection: Any, study: str | None) -> tuple[Progress, ...]:
         "interruptions": sa.func.coalesce(sa.func.sum(trials.c.interruptions), 0),
         "given_up": sa.func.coalesce(sa.func.sum(sa.case((trials.c.given_up, 1), else_=0)), 0),
     }
-    plain = ("person", "code", "stage", "language", "joined", "consented", "last", "finished", "completion")
+    plain = (
+        "person",
+        "code",
+        "stage",
+        "language",
+        "joined",
+        "consented",
+        "consent_text",
+        "last",
+        "finished",
+        "completion",
+    )
     query = (
         sa.select(
             tables.studies.c.name.label("study"),

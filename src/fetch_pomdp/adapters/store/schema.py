@@ -89,6 +89,7 @@ def _participants(sa: Any, metadata: Any) -> Any:
         sa.Column("trials", sa.Integer, nullable=False),  # how many they are to have
         *(sa.Column(name, sa.Text, nullable=False) for name in ("consent", "joined", "last")),
         *(sa.Column(name, sa.Text) for name in ("consented", "finished", "completion")),
+        sa.Column("consent_text", sa.Text),  # hash of the text that was agreed to
         sa.UniqueConstraint("study", "person", name="participants_person"),
         sa.UniqueConstraint("secret", name="participants_secret"),
         sa.UniqueConstraint("code", name="participants_code"),
@@ -108,6 +109,7 @@ def _trials(sa: Any, metadata: Any) -> Any:
         sa.Column("interruptions", sa.Integer, nullable=False),
         sa.Column("given_up", sa.Boolean, nullable=False),
         sa.Column("finished", sa.Text),
+        sa.Column("clock", sa.Float),  # s, what the trial's clock showed when it was last noted; none before it ran
         sa.UniqueConstraint("participant", "part", "number", name="trials_number"),
         sqlite_autoincrement=True,
     )

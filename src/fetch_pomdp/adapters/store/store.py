@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Literal
 
@@ -13,7 +13,15 @@ from fetch_pomdp.adapters.store import journal
 from fetch_pomdp.adapters.store.database import ConflictError, Database, file_of
 from fetch_pomdp.adapters.store.exporting import Exported, Scored, export
 from fetch_pomdp.adapters.store.forgetting import Forgotten, forget
-from fetch_pomdp.adapters.store.participant import STAGES, Participant, as_json, hashed, new_code, now
+from fetch_pomdp.adapters.store.participant import (
+    STAGES,
+    Agreement,
+    Participant,
+    as_json,
+    hashed,
+    new_code,
+    now,
+)
 from fetch_pomdp.adapters.store.progress import Progress, progress
 from fetch_pomdp.adapters.store.schema import EXTRA, schema
 from fetch_pomdp.errors import StoreError
@@ -55,22 +63,24 @@ class Store:
             _study(connection, study, digest, people)
 
     def enrol(
-        self, study: str, digest: str, people: int, language: str, *, trials: Callable[[int], int]
+        self, study: str, digest: str, people: int, agreed: Agreement, *, trials: Callable[[int], int]
     ) -> tuple[Participant, str]:
-        """Take somebody in, with the lowest number that is free; return them, and the secret that their page keeps.
+        """Take in somebody who has agreed, with the lowest number that is free.
+
+        Return them, at their first stage, and the secret that their page keeps.
 
         trials: how many trials the person of a number is to have. Raises StoreError when all `people` are there, or the
         study is there with another digest: it has changed since it began.
         """
         for _ in range(TRIES):
             try:
-                return self._enrolled(study, digest, people, language, trials)
+                return self._enrolled(study, digest, people, agreed, trials)
             except ConflictError:  # another server took the number, or began the study
                 continue
         raise StoreError(f"found a number taken {TRIES} times, expected a free one", field="person")
 
     def _enrolled(
-        self, study: str, digest: str, people: int, language: str, trials: Callable[[int], int]
+        self, study: str, digest: str, people: int, agreed: Agreement, trials: Callable[[int], int]
     ) -> tuple[Participant, str]:
         table, secret = schema().participants, secrets.token_urlsafe(24)
         with self._database.writing() as connection:
@@ -86,19 +96,19 @@ class Store:
             when = now()
             values = {
                 "study": number, "person": person, "secret": hashed(secret), "code": new_code(), "stage": STAGES[0],
-                "language": language, "trials": trials(person), "consent": "{}", "joined": when, "last": when,
+                "language": agreed.language, "trials": trials(person), "joined": when, "consented": when, "last": when,
+                "consent": as_json(dict(agreed.given), "consent"), "consent_text": hashed(agreed.text),
             }  # fmt: skip
             added = connection.execute(table.insert().values(values)).inserted_primary_key[0]
             return _participant(connection, table.c.id == added), secret  # type: ignore[return-value]
 
-    def returning(self, secret: str) -> Participant | None:
-        """Return whom a secret belongs to, None if nobody."""
+    def returning(self, study: str, secret: str) -> Participant | None:
+        """Return whom of a study a secret belongs to, None if nobody."""
+        sa, tables = load("sqlalchemy", EXTRA), schema()
+        people, studies = tables.participants, tables.studies
+        here = people.c.study.in_(sa.select(studies.c.id).where(studies.c.name == study))
         with self._database.reading() as connection:
-            return _participant(connection, schema().participants.c.secret == hashed(secret))
-
-    def consent(self, participant_id: int, given: Mapping[str, bool]) -> None:
-        """Note what somebody has agreed to, and when."""
-        self._change(participant_id, consent=as_json(dict(given), "consent"), consented=now())
+            return _participant(connection, sa.and_(people.c.secret == hashed(secret), here))
 
     def advance(self, participant_id: int, stage: str) -> None:
         """Note that somebody has come to a stage; who is done gets a code that says so."""
@@ -137,12 +147,20 @@ class Store:
     def forget(self, code: str) -> Forgotten:
         """Delete all there is of the person with a code, from the tables and from what the tables leave behind.
 
-        Raises StoreError if nobody has the code.
+        Raises StoreError if nobody has the code, or if something is left behind (`scrub`).
         """
-        with self._database.writing() as connection:
-            forgotten = forget(connection, code)
-        self._database.scrub()
+        forgotten = self.erase(code)
+        self.scrub()
         return forgotten
+
+    def erase(self, code: str) -> Forgotten:
+        """Delete all rows of the person with a code. Raises StoreError if nobody has it."""
+        with self._database.writing() as connection:
+            return forget(connection, code)
+
+    def scrub(self) -> None:
+        """Remove what deleted rows have left behind; see `Database.scrub`."""
+        self._database.scrub()
 
     def _change(self, participant_id: int, **values: object) -> None:
         table = schema().participants

@@ -41,8 +41,9 @@ class Registry:
 
     def returning(self, hello: Hello, tell: Callable[[Told], None]) -> Attendance | None:
         """Return the attendance of who comes back, None for nobody we know."""
-        person = None if hello.participant is None else self._venue.store.returning(hello.participant)
-        return None if person is None else self._attendance(tell, hello.participant, person)
+        secret, venue = hello.participant, self._venue
+        person = None if secret is None else venue.store.returning(venue.programme.name, secret)
+        return None if person is None else self._attendance(tell, secret, person)
 
     def newcomer(self, hello: Hello, tell: Callable[[Told], None]) -> Attendance:  # noqa: ARG002
         """Return the attendance of somebody new."""
