@@ -200,7 +200,12 @@ def test_who_withdraws_is_deleted(come: Come, study: StudyServer) -> None:
     person.page.click("#leave")
     person.heading("You take part no longer")
     assert study.rows("SELECT count(*) FROM participants") == [(0,)]
-    assert b"a green marker" not in study.database.read_bytes()
+    for _ in range(100):  # the file is written anew after the person was told
+        if b"a green marker" not in study.database.read_bytes():
+            break
+        person.page.wait_for_timeout(100)
+    else:
+        pytest.fail("the words of who has withdrawn are in the file")
     person.page.reload()
     person.heading("Fetching")
 

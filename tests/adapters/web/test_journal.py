@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from fetch_pomdp.adapters.web import journal as module
-from fetch_pomdp.adapters.web.journal import Journals, name_of
+from fetch_pomdp.adapters.web.journal import Journal, Journals, name_of
 from fetch_pomdp.core.action import Pick, Point
 from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.observation import Observation
@@ -39,6 +39,13 @@ def test_a_journal_goes_on_where_it_was(tmp_path: Path, folder: str | None) -> N
     assert resumed.time == 4.5
     assert resumed.agent().belief.argmax() == 3
     assert resumed.agent().asked == 2
+
+
+def test_it_goes_on_later_if_somebody_was_there_after_the_last_event() -> None:
+    assert Journal("", HEADER).time == 0.0
+    assert Journal("", HEADER, clock=2.5).time == 2.5
+    assert Journal("", HEADER, list(STORY), clock=2.5).time == 4.5
+    assert Journal("", HEADER, list(STORY), clock=6.0).time == 6.0
 
 
 def test_neither_its_name_nor_a_path_opens_a_journal(tmp_path: Path) -> None:

@@ -36,12 +36,16 @@ class Sink(Protocol):
 
 @dataclass(slots=True)
 class Journal:
-    """One interaction: what it is about, and its events, in memory and in a sink if there is one."""
+    """One interaction: what it is about, and its events, in memory and in a sink if there is one.
+
+    clock: what (s) the interaction's clock showed when its person left, where that is known.
+    """
 
     secret: str
     header: Header
     events: list[Event] = field(default_factory=list)
     sink: Sink | None = None
+    clock: float = 0.0
 
     @property
     def name(self) -> str:
@@ -50,8 +54,8 @@ class Journal:
 
     @property
     def time(self) -> float:
-        """When (s) the last event was."""
-        return max((event.time for event in self.events if event.time is not None), default=0.0)
+        """When (s) it goes on: with the last event, or later if somebody was there after it."""
+        return max([self.clock, *(event.time for event in self.events if event.time is not None)])
 
     @property
     def picked(self) -> str | None:

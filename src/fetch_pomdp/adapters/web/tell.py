@@ -22,6 +22,7 @@ Told = dict[str, Any]
 View: TypeAlias = Callable[[Update, Agent], Told | None]  # what a page is told of an update
 
 ASKS, HANDS_OVER = "This one?", "Here you are."
+BROKEN = "broken"  # code of a complaint: the party is at its end, and its page is let go
 # All that the robot says; the page has these sentences in its languages, the server as sound.
 SENTENCES = {
     "asks": ASKS,

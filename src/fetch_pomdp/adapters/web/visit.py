@@ -11,7 +11,7 @@ from typing import Any, Protocol
 from fetch_pomdp.adapters.web.gate import Allowance
 from fetch_pomdp.adapters.web.outbox import Outbox
 from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
-from fetch_pomdp.adapters.web.tell import Told, complaint
+from fetch_pomdp.adapters.web.tell import BROKEN, Told, complaint
 from fetch_pomdp.errors import InputError
 
 logger = logging.getLogger(__name__)
@@ -126,6 +126,9 @@ class Visit:
                 return
             for told in await self._outbox.take():
                 await send(self._socket, told)
+                if told.get("code") == BROKEN:  # the page comes back, to a party that goes on where this one was
+                    await close(self._socket, TRY_LATER)
+                    return
 
     def _allowed(self, message: str | bytes) -> bool:
         """Whether a message may come now; each piece of sound is work, however short it is."""

@@ -17,7 +17,6 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from fetch_pomdp.adapters.store.journal import TrialJournal
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.adapters.web.hall import Config
 from fetch_pomdp.adapters.web.participation import registry, rounds
@@ -117,7 +116,7 @@ def test_from_consent_to_completion_code(tmp_path: Path) -> None:
         person = house.page(participant=done["resume"])
         assert stage(person, "done")["completion"] == done["completion"]
     store = Store.open(f"sqlite:///{tmp_path / 'participants.db'}")
-    who = store.returning(done["resume"])
+    who = store.returning("small", done["resume"])
     assert who is not None
     assert who.answers == {"open": "Everything.", "kinds": ["names", "places"], "ease": 6}
     assert (who.language, who.consent) == ("de", {"taking_part": True, "sound": False})
@@ -278,22 +277,6 @@ def test_a_database_that_breaks_is_no_reason_to_tell_its_place(tmp_path: Path, m
         reply(page, "instructions")
         error = page.next("error")
         assert (error["code"], error["message"]) == ("broken", "something went wrong on the server")
-
-
-def test_an_event_that_cannot_be_written_ends_the_round(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(*_: object) -> None:
-        raise StoreError("the disk is full")
-
-    with study_at(tmp_path) as house:
-        page, told = enrolled(house)
-        reply(page, "instructions")
-        begin(page, "practice")
-        with monkeypatch.context() as patched:
-            patched.setattr(TrialJournal, "write", broken)
-            page.send({"type": "typed", "text": "the marker"})
-            assert page.next("error")["code"] == "broken"
-        page = house.page(participant=told["resume"])
-        assert not stage(page, "practice")["running"]
 
 
 def test_malformed_messages_end_nothing(tmp_path: Path) -> None:

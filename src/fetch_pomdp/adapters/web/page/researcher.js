@@ -26,7 +26,8 @@ function show(study) {
   shown = study;
   const { title, people, progress } = study;
   $("h1").textContent = document.title = `${title[currentLanguage()] ?? title.en}: ${text("researcher")}`;
-  const line = text("researcher_people", { there: progress.length, people, done: progress.filter((one) => one.stage === "done").length });
+  const count = (which) => progress.filter(which).length;
+  const line = text("researcher_people", { there: progress.length, people, done: count((one) => one.stage === "done"), idle: count((one) => one.of > 0 && one.trials_done === 0) });
   if ($("#state").textContent !== line) $("#state").textContent = line; // what stays the same is not read aloud again
   $("#export").disabled = progress.length === 0;
   $("#nobody").hidden = progress.length > 0;

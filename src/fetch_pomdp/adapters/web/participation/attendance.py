@@ -9,7 +9,8 @@ from itertools import pairwise
 from typing import Any, Literal
 
 from fetch_pomdp.adapters.speech.espeak import Voice
-from fetch_pomdp.adapters.store.participant import Participant
+from fetch_pomdp.adapters.store.journal import SECOND
+from fetch_pomdp.adapters.store.participant import Agreement, Participant
 from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.adapters.web.conversation import Conversation
 from fetch_pomdp.adapters.web.ears import Hearing
@@ -20,13 +21,11 @@ from fetch_pomdp.adapters.web.participation.messages import STUDY, Answer, Next,
 from fetch_pomdp.adapters.web.participation.programme import Programme, Question
 from fetch_pomdp.adapters.web.participation.rounds import Round, Sound
 from fetch_pomdp.adapters.web.protocol import read_message
-from fetch_pomdp.adapters.web.tell import Told, complaint
+from fetch_pomdp.adapters.web.tell import BROKEN, Told, complaint
 from fetch_pomdp.errors import InputError, StoreError
 from fetch_pomdp.files.header import Header
 
 logger = logging.getLogger(__name__)
-
-SAMPLES = 32_000  # bytes a second of sound
 
 
 class Attendance:
@@ -84,7 +83,7 @@ class Attendance:
         elif talk is not None:
             talk.heed(said)
             if isinstance(said, bytes) and self._keeps_sound:
-                self._mailbox.put(Sound(talk.clock.now() - len(said) / SAMPLES, said))
+                self._mailbox.put(Sound(talk.clock.now() - len(said) / SECOND, said))
 
     def _run(self) -> None:
         try:
@@ -92,17 +91,36 @@ class Attendance:
         except LeftError:
             logger.info("a participant left")
         except WithdrawnError:
-            self._withdrawn()
+            logger.info("a participant withdraws")
         except Exception as error:
-            if not isinstance(error, InputError):
-                logger.exception("an attendance broke off")
-            self._tell(complaint(error, "broken"))
+            self._broke(error)
+        if self._mailbox.withdrawn:
+            self._withdraw()
 
-    def _withdrawn(self) -> None:
-        if self._person is not None:
-            self._store.forget(self._person.code)
+    def _broke(self, error: Exception) -> None:
+        """Let the page come back: it is let go when it is told that its party is broken."""
+        logger.error("an attendance broke off", exc_info=error)
+        if not self._mailbox.withdrawn:
+            self._tell(complaint(error, BROKEN))
+
+    def _withdraw(self) -> None:
+        """Delete the person and tell them so, then remove what the rows have left behind, which may take long."""
+        try:
+            person = self._store.returning(self._programme.name, self._secret or "")
+            if person is not None:
+                self._store.erase(person.code)
+        except StoreError as error:
+            logger.exception("somebody who withdraws is not deleted: their page asks again when it comes back")
+            self._tell(complaint(error, BROKEN))
+            return
         self._person = self._secret = None
         self._show("withdrawn")
+        try:
+            self._store.scrub()
+        except StoreError:
+            logger.exception(
+                "somebody who has withdrawn is deleted, but bytes may be left: forget anybody to try again"
+            )
 
     def _attend(self) -> None:
         person = self._person or self._enrolled()
@@ -126,7 +144,7 @@ class Attendance:
         self._tell({"type": "stage", "stage": stage, "title": title, **known, **fields})
 
     def _refreshed(self) -> Participant:
-        person = self._store.returning(self._secret or "")
+        person = self._store.returning(self._programme.name, self._secret or "")
         if person is None:
             raise StoreError("found nobody, expected a participant: they were deleted meanwhile")
         self._person = person
@@ -147,9 +165,12 @@ class Attendance:
         if not given["taking_part"]:
             self._show("declined")
             raise LeftError
+        given = {**given, "sound": given["sound"] and programme.keep_sound}
+        read = programme.consent.get(language, programme.consent["en"])
         try:
-            person, self._secret = self._store.enrol(
-                programme.name, programme.digest, programme.people, language,
+            self._person, self._secret = self._store.enrol(
+                programme.name, programme.digest, programme.people,
+                Agreement(language=language, given=given, text=read),
                 trials=lambda number: len(programme.trials(number)),
             )  # fmt: skip
         except StoreError as error:
@@ -157,9 +178,7 @@ class Attendance:
                 raise
             self._show("full")
             raise LeftError from None
-        self._store.consent(person.id, {**given, "sound": given["sound"] and programme.keep_sound})
-        self._store.advance(person.id, "instructions")
-        return self._refreshed()
+        return self._person
 
     def _agreement(self) -> tuple[dict[str, bool], str]:
         while True:

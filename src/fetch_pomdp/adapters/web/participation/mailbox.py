@@ -1,4 +1,8 @@
-"""Messages of a page, waited for by the thread that leads its person through a study."""
+"""Messages of a page, waited for by the thread that leads its person through a study.
+
+Choice: who withdraws does so whatever else is going on: it counts though the page left right after it, and though too
+much was sent before it.
+"""
 
 from __future__ import annotations
 
@@ -22,18 +26,31 @@ class WithdrawnError(Exception):
     """The person takes part no longer."""
 
 
+class BrokenError(Exception):
+    """What the person was led through cannot go on, by no fault of theirs."""
+
+
 class Mailbox:
-    """Messages in their order. tell: is told of those that nobody expects."""
+    """Messages in their order. tell: is told of those that nobody expects.
+
+    withdrawn: whether the person has said that they take part no longer.
+    """
 
     def __init__(self, tell: Callable[[Told], None]) -> None:
         self._tell = tell
         self._waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._closed = False
+        self.withdrawn = False
 
     def put(self, message: Any) -> None:
-        """Leave a message, from any thread. Raises MessageError when too many are there."""
-        if self._waiting.qsize() > MOST:
+        """Leave a message of the page, from any thread. Raises MessageError when too many are there."""
+        self.withdrawn = self.withdrawn or isinstance(message, Withdraw)
+        if self._waiting.qsize() > MOST and not self.withdrawn:
             raise MessageError(f"found {MOST} messages waiting, expected fewer")
+        self._waiting.put(message)
+
+    def post(self, message: Any) -> None:
+        """Leave a message of the server's own, from any thread; an exception is raised where messages are expected."""
         self._waiting.put(message)
 
     def close(self) -> None:
@@ -41,16 +58,22 @@ class Mailbox:
         self._closed = True
         self._waiting.put(None)
 
-    def expect(self, *kinds: type) -> Any:
-        """Wait for a message of one of some kinds; others are refused. Raises LeftError or WithdrawnError."""
+    def expect(self, *kinds: type, within: float | None = None) -> Any:
+        """Wait for a message of one of some kinds; others are refused. Return None if none comes within some seconds.
+
+        Raises LeftError, WithdrawnError, or what was posted.
+        """
         while True:
-            message = self._next(None)
+            try:
+                message = self._next(within)
+            except queue.Empty:
+                return None
             if isinstance(message, kinds):
                 return message
             self._refuse(message, kinds)
 
     def pause(self, seconds: float) -> None:
-        """Let some time pass. Raises LeftError or WithdrawnError."""
+        """Let some time pass. Raises as `expect`."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             try:
@@ -60,10 +83,12 @@ class Mailbox:
 
     def _next(self, timeout: float | None) -> Any:
         message = self._waiting.get(timeout=timeout)
+        if self.withdrawn:
+            raise WithdrawnError
         if self._closed:
             raise LeftError
-        if isinstance(message, Withdraw):
-            raise WithdrawnError
+        if isinstance(message, Exception):
+            raise message
         return message
 
     def _refuse(self, message: object, kinds: tuple[type, ...]) -> None:

@@ -18,10 +18,12 @@ from fetch_pomdp.adapters.store.journal import TrialJournal
 from fetch_pomdp.adapters.web.conversation import Conversation
 from fetch_pomdp.adapters.web.ears import Hearing
 from fetch_pomdp.adapters.web.journal import Journal
-from fetch_pomdp.adapters.web.participation.mailbox import Mailbox
+from fetch_pomdp.adapters.web.participation.keeping import NOTED, Keeping
+from fetch_pomdp.adapters.web.participation.mailbox import BrokenError, Mailbox
 from fetch_pomdp.adapters.web.participation.messages import GiveUp, Ready
 from fetch_pomdp.adapters.web.robot import PageRobot
 from fetch_pomdp.adapters.web.tell import (
+    BROKEN,
     HANDS_OVER,
     Told,
     complaint,
@@ -99,44 +101,56 @@ class Round:
         self._voice, self._hearing = voice, hearing
 
     def play(self, stage: Told, countdown: float) -> None:
-        """Play it, or go on with it where it was, and tell how it ended. stage: what the page is told of it."""
+        """Play it, or go on with it where it was, and tell how it ended. stage: what the page is told of it.
+
+        Raises what `Mailbox.expect` raises: BrokenError for a robot that cannot go on.
+        """
         trial = self._trial
         agent = trial.header.agent()
         prepare(agent.planner, agent.problem)
-        running = bool(trial.events)
+        running = trial.clock is not None
         self._tell({**stage, "desired": trial.header.target, "running": running, "give_up": GIVE_UP})
         self._tell(self._welcome(running))
         if not running:
             self._mailbox.expect(Ready)
             self._tell({"type": "countdown", "seconds": countdown})
             self._mailbox.pause(countdown)
+            trial.note_clock(0.0)
         self._tell({"type": "ended", "picked": self._picked()})
 
     def _picked(self) -> str | None:
         """Let person and robot interact; return what the robot brings, None if it was given up."""
-        journal = Journal("", self._trial.header, list(self._trial.events), self._trial)
+        trial = self._trial
+        journal = Journal("", trial.header, list(trial.events), trial, clock=trial.clock or 0.0)
         talk = Conversation(
             journal, self._told, view=outward, voice=self._voice, hearing=self._hearing, body=TellingRobot
         )
+        kept = Keeping(trial, talk.clock)
         self._began(talk)
         self._tell({"type": "begin", "t": round(talk.clock.now(), 3)})
         talk.start()
         if journal.events:  # whoever waited for the robot when the connection was lost waits still
             talk.wake()
         try:
-            return self._until_over(talk)
+            return self._until_over(talk, kept)
         finally:
+            left = talk.clock.now()
             self._began(None)
             talk.close()
             talk.join(FAREWELL)
+            trial.note_clock(left)
+            kept.flush()
 
-    def _until_over(self, talk: Conversation) -> str | None:
+    def _until_over(self, talk: Conversation, kept: Keeping) -> str | None:
         while True:
-            message = self._mailbox.expect(Over, GiveUp, Sound)
+            message = self._mailbox.expect(Over, GiveUp, Sound, within=NOTED)
+            kept.look()
             if isinstance(message, Over):
                 return message.picked
+            if message is None:
+                continue
             if isinstance(message, Sound):
-                self._trial.keep_sound(message.start, message.pcm)
+                kept.sound(message.start, message.pcm)
             elif (now := talk.clock.now()) >= GIVE_UP:
                 talk.close()
                 talk.join(FAREWELL)
@@ -150,7 +164,9 @@ class Round:
 
     def _told(self, told: Told) -> None:
         if told["type"] == "ended":
-            self._mailbox.put(Over(told["picked"]))
+            self._mailbox.post(Over(told["picked"]))
+        elif told.get("code") == BROKEN:
+            self._mailbox.post(BrokenError("the robot cannot go on"))
         else:
             self._tell(told)
 
