@@ -19,6 +19,7 @@ logger = logging.getLogger(__name__)
 # Codes that close a WebSocket: of RFC 6455, and from 4000 our own.
 POLICY, TRY_LATER, TAKEN_OVER = 1008, 1013, 4001
 FAREWELL = 5.0  # s a party may take to end
+LAST_WORDS = 1.0  # s in which what a page sent before it was let go is still taken: it may be a withdrawal
 FORBEARANCE = 200  # messages too many after which a page is let go
 LEAST_SOUND = 640  # bytes that a piece of sound counts for at least: 20 ms, half of what a microphone sends at once
 
@@ -98,6 +99,7 @@ class Visit:
         ways = [asyncio.create_task(way) for way in (self._from_page(), self._to_page(), self._until_let_go())]
         try:
             done, _ = await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait(ways[:1], timeout=LAST_WORDS)
             for way in done:
                 if not isinstance(way.exception(), GoneError):
                     way.result()
