@@ -333,3 +333,22 @@ def test_our_planner_hands_over_what_was_said_and_shown() -> None:
     events = list(interact(agent, arm, ears, eyes))
     assert acted(events)[-1].action == Pick(3)
     assert arm.done == ["pick marker-2"]
+
+
+def test_what_was_said_before_is_heard_before_the_first_decision() -> None:
+    script = Script(Wait(), Pick(0))
+    ears = Ears(("marker", 0.2), ("green", 1.4))
+    timing = Timing(before=1.0)
+    events = list(interact(Agent("ambiguous", script), Arm(), ears, None, timing=timing))
+    first, second = events[0], events[1]
+    assert isinstance(first, Observed)
+    assert first.observation.words == ("marker",)
+    assert first.time == 1.0
+    assert isinstance(second, Acted)
+    assert second.action == Wait()
+    assert [event.observation.words for event in events if isinstance(event, Observed)] == [("marker",), ("green",)]
+
+
+def test_listening_before_takes_some_time_or_none() -> None:
+    with pytest.raises(ModelError, match="before the first decision"):
+        Timing(before=-1.0)

@@ -89,10 +89,13 @@ def report(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Where the report goes.  [default: report, beside the trials]")
     ] = None,
+    system: Annotated[
+        str, typer.Option(metavar="NAME", help="The paradigm that is compared with never and always.")
+    ] = Plan().system,
 ) -> None:
     """Write what a study found: pictures, tests and the answers to the paper's hypotheses, as one HTML page."""
     beside = trials if trials.is_dir() else trials.parent
-    print(f"wrote {write_report(read_table(trials), out or beside / REPORT)}")
+    print(f"wrote {write_report(read_table(trials), out or beside / REPORT, Plan(system=system))}")
 
 
 def _chosen(config: Path | None, model: Path | None, given: Mapping[str, object]) -> Study:

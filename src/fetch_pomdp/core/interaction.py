@@ -56,6 +56,7 @@ class Timing:
     silence: float = 4.0  # s
     listen: float = 1.0  # s
     overlap: float = 0.0  # s before a question has been asked from which on an answer to it is possible
+    before: float = 0.0  # s of listening before the first decision
 
     def __post_init__(self) -> None:
         times = (self.wait, self.listen, self.question, self.silence)
@@ -63,6 +64,8 @@ class Timing:
             found = f"found wait {self.wait!r}, listen {self.listen!r}, question {self.question!r}"
             expected = "expected 0 < wait, 0 < listen <= question and 0 < silence, in seconds"
             raise ModelError(f"{found}, silence {self.silence!r}, {expected}", field="timing")
+        if not 0 <= self.before < float("inf"):
+            raise ModelError(f"found {self.before!r} s before the first decision, expected 0 or more", field="timing")
         if not 0 <= self.overlap <= self.question - self.listen:
             found = f"found an overlap of {self.overlap!r} s"
             raise ModelError(f"{found}, expected one from 0 to question - listen", field="timing")
@@ -144,6 +147,11 @@ def interact(
     """
     timing, pace = timing or Timing(), pace or StreamPace()
     senses, now, silence = Senses(agent.problem, ears, eyes, pace), pace.time(0.0), 0.0
+    if timing.before:
+        observed = senses.perceive(now + timing.before, texts)
+        now = pace.time(now + timing.before)
+        agent.take(observed)
+        yield observed
     for _ in range(most_steps):
         decision, listening, asking = agent.decide(), timing.wait, 0.0
         pace.decided(decision)

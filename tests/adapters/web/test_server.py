@@ -187,6 +187,27 @@ def test_what_is_being_typed_is_shown_and_leaves_no_trace_when_it_is_changed(hou
     assert belief["marker-1"] == pytest.approx(belief["bowl-1"])
 
 
+def test_the_first_decision_is_about_what_woke_the_robot(house: House) -> None:
+    """With two or three items it would ask about one of them at once, whatever is being said."""
+    table = "\n".join(
+        f'[[items]]\nid = "{name}"\nposition = [{x}, 1.2, 0.75]\nvocabulary = ["{word}"]'
+        for name, x, word in (("mug-1", -0.3, "mug"), ("mug-2", 0.0, "mug"), ("pen", 0.3, "pen"))
+    )
+    page = house.page(scene={"toml": f"head = [0.0, 0.0, 1.6]\n{table}"}, planner="fitted")
+    page.send({"type": "typed", "text": "give me the pen please"})
+    assert page.next("observed")["observation"]["utterance"] == "give me the pen please"
+    assert "pen" in page.next("decided")["explanation"]["sentence"]
+
+
+def test_words_that_nobody_knows_are_told_as_such(house: House) -> None:
+    page = house.page()
+    page.send({"type": "typed", "text": "den grünen Stift bitte"})
+    heard = page.next("observed")
+    assert (heard["understood"], heard["unknown"]) == (False, ["den", "grünen", "stift", "bitte"])
+    page.send({"type": "typed", "text": "grün marker"})
+    assert page.next("observed")["understood"]
+
+
 def test_pointing_alone_begins_an_interaction(house: House) -> None:
     page = house.page()
     page.send({"type": "ray", "head": [0, 0, 1.6], "wrist": [0.0675, 0.576, 1.447]})

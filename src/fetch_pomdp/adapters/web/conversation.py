@@ -2,6 +2,7 @@
 
 Choice: nothing is decided before the person has said or shown something, nor after IDLE seconds in which they did not:
 a robot that speaks to an empty room helps nobody, and the time of an interaction begins with the request (Section IV).
+What wakes the robot is heard to its end before the first decision, which is otherwise one about nobody's request.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ from fetch_pomdp.errors import MessageError
 logger = logging.getLogger(__name__)
 
 IDLE = 30.0  # s
-TIMING: Timing = dataclasses.replace(LIVE, question=ARM + SPEAK + LIVE.wait, overlap=SPEAK, silence=8.0)
+TIMING: Timing = dataclasses.replace(
+    LIVE, question=ARM + SPEAK + LIVE.wait, overlap=SPEAK, silence=8.0, before=LIVE.wait
+)
 
 
 class Conversation:

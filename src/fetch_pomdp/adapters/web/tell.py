@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 from fetch_pomdp.core.action import Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
-from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED
 from fetch_pomdp.core.language import split
 from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
@@ -100,12 +100,10 @@ def event_message(event: Event, agent: Agent) -> Told | None:
         return {"type": "action", "outcome": event.outcome.value, **event_to_json(event, agent.scene)}
     if not event.observation.words and event.observation.ray is None:
         return None
-    return {"type": "observed", "unknown": _unknown(event, agent), **event_to_json(event, agent.scene)}
-
-
-def _unknown(event: Observed, agent: Agent) -> list[str]:
-    """Return the words that the model does not know, without those of courtesy."""
-    return [word for word in split(event.observation.words, agent.problem).unknown if word not in COURTESY]
+    parts = split(event.observation.words, agent.problem)
+    unknown = [word for word in parts.unknown if word not in COURTESY]
+    understood = bool(parts.base or parts.response)
+    return {"type": "observed", "unknown": unknown, "understood": understood, **event_to_json(event, agent.scene)}
 
 
 def complaint(error: Exception, code: str = "refused") -> Told:

@@ -52,7 +52,7 @@ class Display:
             self._start, self._asked, self._taken = self._agent.posterior, self._agent.asked, ()
             self._shown = Observation()
             self._tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=()))
-        self._catch_up()
+        self.look(time)
 
     def settle(self, event: Event, time: float) -> None:
         """Tell of an event that the agent has taken, and of the belief that the next step begins with."""

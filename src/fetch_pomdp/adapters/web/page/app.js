@@ -102,7 +102,7 @@ function belief(message) {
 
 function decided(message) {
   mind.decide(message);
-  labels.about(message.item ?? null);
+  if (message.action !== "wait" || $("#answers").hidden) labels.about(message.item ?? null); // a question stays marked
   if (message.action === "point") stage?.ask(message.item);
   if (message.action === "pick") stage?.fetch(message.item);
   if (message.action !== "wait") $("#answers").hidden = true;
@@ -111,6 +111,8 @@ function decided(message) {
 function happened(message) {
   mind.tell(message);
   if (!message.observation.utterance) return;
+  if (!message.understood) bubble("not_understood", 4000);
+  else if (!$("#answers").hidden) $("#bubble").hidden = true;
   $("#answers").hidden = true;
   stage?.rest();
 }
@@ -121,7 +123,7 @@ function acted(message) {
 }
 
 function spoken(message) {
-  bubble(message.key, 3500, message.text);
+  bubble(message.key, message.key === "asks" ? null : 3500, message.text);
   if (message.key === "asks") $("#answers").hidden = false; // an answer given before is none to this question
   speech.say(message);
 }
@@ -146,6 +148,7 @@ function error({ code, message }) {
 
 // What the robot says: as a bubble, and to screen readers.
 
+// duration: ms, null until something else is said or the question is answered.
 function bubble(key, duration, plain = null) {
   const line = key ? english(key) : plain;
   const element = $("#bubble");
@@ -159,7 +162,7 @@ function bubble(key, duration, plain = null) {
   element.hidden = false;
   announce(line);
   clearTimeout(bubbleTimer);
-  bubbleTimer = setTimeout(() => { element.hidden = true; }, duration);
+  if (duration !== null) bubbleTimer = setTimeout(() => { element.hidden = true; }, duration);
   stage?.draw();
 }
 

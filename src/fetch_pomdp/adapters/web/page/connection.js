@@ -2,17 +2,20 @@
 
 const TAKEN_OVER = 4001;
 const REFUSED = 1008;
+const TRY_LATER = 1013;
 const SLOWEST = 5000; // ms between attempts
+const STEADY = 10000; // ms after which a line counts as good
 
 export class Connection {
   #socket = null;
   #attempts = 0;
+  #steady = null;
   #hello = null;
   #wish = null;
 
   constructor(told, changed) {
     this.told = told; // called with each message
-    this.changed = changed; // called with "connecting", "lost" or "moved"
+    this.changed = changed; // called with "connecting", "lost", "busy" or "moved"
     this.token = new URLSearchParams(location.hash.slice(1)).get("token");
   }
 
@@ -58,7 +61,7 @@ export class Connection {
   }
 
   #received(message) {
-    if (message.type === "welcome" || message.type === "stage") this.#attempts = 0;
+    this.#steady ??= setTimeout(() => { this.#attempts = 0; }, STEADY);
     if (message.resume) (message.type === "stage" ? localStorage : sessionStorage).setItem(message.type === "stage" ? "participant" : "resume", message.resume);
     if (message.stage === "withdrawn") this.#wish = null;
     else if (message.type === "stage" && this.#wish) this.send(this.#wish);
@@ -68,8 +71,10 @@ export class Connection {
   #lost(code) {
     if (code === TAKEN_OVER) this.changed("moved");
     if (code === TAKEN_OVER || code === REFUSED) return;
+    clearTimeout(this.#steady);
+    this.#steady = null;
     this.#attempts += 1;
-    this.changed("lost");
+    this.changed(code === TRY_LATER ? "busy" : "lost");
     setTimeout(() => this.#connect(), Math.min(250 * 2 ** this.#attempts, SLOWEST));
   }
 }

@@ -1,5 +1,6 @@
 // What the robot thinks: why it acts, what each action is worth, and the story so far.
 
+import { allEqual } from "./shares.js";
 import { decimal, join, percent, text } from "./texts.js";
 import { why } from "./why.js";
 
@@ -38,7 +39,7 @@ export class Mind {
   decide(message) {
     this.decided = message;
     if (!message.values) return;
-    document.querySelector("#why").textContent = why(message);
+    document.querySelector("#why").textContent = why(message, this.belief);
     for (const [id, { row, cells }] of this.rows) {
       row.classList.toggle("about", id === message.item);
       this.#value(cells[1], message.values.point[id], message.action === "point" && id === message.item);
@@ -77,9 +78,10 @@ export class Mind {
 function leaders(belief) {
   const sorted = Object.entries(belief).sort((one, other) => other[1] - one[1]);
   const best = sorted[0][1];
-  const leading = sorted.filter(([, share]) => share > best / 2).slice(0, 3);
-  if (sorted.length > 1 && sorted.at(-1)[1] > best * 0.98) return text("evenly");
-  return text("leads", { items: join(leading.map(([id, share]) => `${id} ${percent(share)}`)) });
+  const leading = sorted.filter(([, share]) => share > best / 2), named = leading.slice(0, 3).map(([id, share]) => `${id} ${percent(share)}`);
+  if (leading.length > 3) named.push(text("more", { number: leading.length - 3 }));
+  if (allEqual(belief)) return text("evenly");
+  return text("leads", { items: join(named) });
 }
 
 function perceived({ observation, unknown }) {

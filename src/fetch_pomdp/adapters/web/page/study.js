@@ -84,6 +84,8 @@ export class Study {
       this.about = message.asked;
       this.page.stage?.ask(message.asked);
       $("#answers").hidden = false;
+      this.page.bubble("asks", null);
+      this.page.labels.about(message.asked);
       this.#said({ key: "asks" });
     }
   }
@@ -111,6 +113,7 @@ export class Study {
   }
 
   #heard() {
+    if (!$("#answers").hidden) $("#bubble").hidden = true;
     $("#answers").hidden = true;
     this.page.stage?.rest();
   }

@@ -1,16 +1,17 @@
 // Why the robot acts, in a sentence: the server's own in English, and one from the same numbers in other languages
 // (texts.json has the English pieces too, for translators to start from).
 
+import { allEqual } from "./shares.js";
 import { decimal, isEnglish, join, percent, text } from "./texts.js";
 
 const TELLING = Math.log(2); // log-odds from which evidence is worth a word, as the server has it
 const NEAR = Math.log(1.5); // below, two items are almost equally likely
 const CERTAIN = 0.9995;
 
-export function why(decided) {
+export function why(decided, belief) {
   const { explanation } = decided;
   if (isEnglish()) return `${explanation.sentence[0].toUpperCase()}${explanation.sentence.slice(1)}.`;
-  return `${deed(decided)}: ${known(decided)}. ${worths(explanation.values)}.`;
+  return `${deed(decided)}: ${known(decided, belief)}. ${worths(explanation.values)}.`;
 }
 
 function deed({ action, item }) {
@@ -18,9 +19,10 @@ function deed({ action, item }) {
 }
 
 // How the item that the decision is about stands to its rival, and where that comes from.
-function known({ action, item: about, explanation }) {
+function known({ action, item: about, explanation }, shares) {
   const { item, rival, belief, log_odds: odds, unanswered } = explanation;
   if (unanswered && (action === "wait" || unanswered === about)) return text("why_unanswered", { item: unanswered });
+  if (allEqual(shares)) return text("evenly");
   if (!rival) return text("why_alone", { item });
   if (belief >= CERTAIN) return text("why_certain", { item });
   if (odds.total === null) return text("why_likely", { item, percent: percent(belief) });
