@@ -76,11 +76,10 @@ export class Mind {
 }
 
 function leaders(belief) {
-  const sorted = Object.entries(belief).sort((one, other) => other[1] - one[1]);
-  const best = sorted[0][1];
-  const leading = sorted.filter(([, share]) => share > best / 2), named = leading.slice(0, 3).map(([id, share]) => `${id} ${percent(share)}`);
-  if (leading.length > 3) named.push(text("more", { number: leading.length - 3 }));
   if (allEqual(belief)) return text("evenly");
+  const sorted = Object.entries(belief).sort((one, other) => other[1] - one[1]);
+  const leading = sorted.filter(([, share]) => share > sorted[0][1] / 2), named = leading.slice(0, 3).map(([id, share]) => `${id} ${percent(share)}`);
+  if (leading.length > 3) named.push(text("more", { number: leading.length - 3 }));
   return text("leads", { items: join(named) });
 }
 
