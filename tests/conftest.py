@@ -38,10 +38,10 @@ settings.load_profile("repeatable")
 
 def _fit_quickly_without_compilation() -> None:
     """In plain Python a fit takes minutes; the coverage run is about lines, so it fits on few beliefs."""
-    from fetch_pomdp.core.planners import fitting, selection
+    from fetch_pomdp.core.planners.fitted import fit, selection
 
-    whole = fitting.fitted
-    vars(fitting).update(ROUNDS=2, SWEEPS=1, REHEARSED=2)
+    whole = fit.fitted
+    vars(fit).update(ROUNDS=2, SWEEPS=1, REHEARSED=2)
     vars(selection).update(
         MOST_REHEARSED=4,
         fitted=lambda problem, distinct, count, seed: whole(problem, distinct, min(count, 20), seed),

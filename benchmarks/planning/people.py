@@ -9,8 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from fetch_pomdp import Planner, Problem
-from fetch_pomdp.core.playing import Interactions
-from fetch_pomdp.core.simulation import played_out
+from fetch_pomdp.core.simulation import Interactions, played_out
 
 
 def met(problem: Problem, planner: Planner, episodes: int, seed: int) -> Interactions:

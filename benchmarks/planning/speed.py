@@ -15,13 +15,14 @@ import numpy as np
 
 from fetch_pomdp import Agent, Belief, ExactAnswers, FittedValue, NeverAsk, Planner, Problem, SparseSampling
 from fetch_pomdp.core.compiled import Vector, compiled
-from fetch_pomdp.core.planners.afterstate import ValueTable
-from fetch_pomdp.core.planners.ahead import step_ahead
-from fetch_pomdp.core.planners.exact import default_width, plan_exact
-from fetch_pomdp.core.planners.fitted import MOST_FITTED, solution
-from fetch_pomdp.core.planners.kernels import NOBODY, Search
-from fetch_pomdp.core.planners.outlook import DistinctWords
-from fetch_pomdp.core.planners.sparse import plan_sparse
+from fetch_pomdp.core.planners.fitted.ahead import step_ahead
+from fetch_pomdp.core.planners.fitted.outlook import DistinctWords
+from fetch_pomdp.core.planners.fitted.planner import MOST_FITTED, solution
+from fetch_pomdp.core.planners.fitted.table import ValueTable
+from fetch_pomdp.core.planners.kernels import NOBODY
+from fetch_pomdp.core.planners.search.exact import default_width, plan_exact
+from fetch_pomdp.core.planners.search.sparse import plan_sparse
+from fetch_pomdp.core.planners.search.tree import Search
 from fetch_pomdp.core.problem import Tables
 from planning import DEFAULT, Record
 from planning.scenes import problem_of

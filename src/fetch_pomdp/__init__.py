@@ -3,7 +3,7 @@
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.bounds import Bound, upper_bound
+from fetch_pomdp.core.bounding.bounds import Bound, upper_bound
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.evidence import Evidence
 from fetch_pomdp.core.explain import explain
@@ -13,12 +13,12 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.base import Decision, Planner
-from fetch_pomdp.core.planners.batch import decide_many
-from fetch_pomdp.core.planners.exact import ExactAnswers
-from fetch_pomdp.core.planners.fitted import FittedValue
-from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
-from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.planners.base import Decision, Planner, decide_many
+from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.fitted.planner import FittedValue
+from fetch_pomdp.core.planners.search.exact import ExactAnswers
+from fetch_pomdp.core.planners.search.sparse import SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold, tuned
 from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem

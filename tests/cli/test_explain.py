@@ -18,7 +18,7 @@ from fetch_pomdp.cli.explain import show_decision
 from fetch_pomdp.cli.main import main
 from fetch_pomdp.core.action import Point
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.planners.fixed import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.files.decisions import decision_to_json, explanation_to_json
 from tests.cli.conftest import ASKED
 from tests.tables import table

@@ -12,11 +12,12 @@ from numpy.random import Generator
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Decision, Planner, pick_values, unvalued
+from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import NeverAsk
 from fetch_pomdp.core.planners.catalogue import PLANNERS
-from fetch_pomdp.core.planners.exact import ExactAnswers
-from fetch_pomdp.core.planners.fitted import FittedValue
-from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
-from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.planners.fitted.planner import FittedValue
+from fetch_pomdp.core.planners.search.exact import ExactAnswers
+from fetch_pomdp.core.planners.search.sparse import SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene

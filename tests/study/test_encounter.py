@@ -11,8 +11,9 @@ from numpy.random import default_rng
 from fetch_pomdp.core.action import Pick, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Observed
-from fetch_pomdp.core.planners.exact import ExactAnswers
-from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
+from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.search.exact import ExactAnswers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.study.clock import Clock

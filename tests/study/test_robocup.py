@@ -17,7 +17,7 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision, unvalued
-from fetch_pomdp.core.planners.fixed import NeverAsk
+from fetch_pomdp.core.planners.baselines.searches import NeverAsk
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import ModelError, StudyError
 from fetch_pomdp.study.robocup.contest import Contest, play_group, without

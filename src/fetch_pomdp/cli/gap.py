@@ -18,7 +18,7 @@ from rich.table import Table
 
 from fetch_pomdp.cli.options import Json, ModelFile, SceneName, Seed, as_json, loaded
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.bounds import Bound, upper_bound
+from fetch_pomdp.core.bounding.bounds import Bound, upper_bound
 from fetch_pomdp.core.planners.base import Decision, Planner, PreparedPlanner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.problem import Problem

@@ -25,7 +25,7 @@ from fetch_pomdp.core.language import Utterance
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner, whole_number
-from fetch_pomdp.core.planners.fitted import FittedValue
+from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.core.words import tokenize

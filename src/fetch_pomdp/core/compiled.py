@@ -1,8 +1,10 @@
-"""How functions are compiled, and the random numbers that compiled code draws."""
+"""How functions are compiled and put on all cores, and the random numbers that compiled code draws."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -10,6 +12,7 @@ import numpy.typing as npt
 from numba import njit
 
 GOLDEN = 0x9E3779B97F4A7C15  # step of SplitMix64
+_SHARE = 256  # decisions, below which a second thread does not pay
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Vector = npt.NDArray[np.float64]
@@ -75,3 +78,15 @@ def standard_normal(state: RandomState) -> float:
     """Return a number from N(0, 1): Box and Muller 1958."""
     radius = np.sqrt(-2.0 * np.log(1.0 - uniform(state)))
     return float(radius * np.cos(2.0 * np.pi * uniform(state)))
+
+
+def on_all_cores(work: Callable[[int, int], None], count: int) -> None:
+    """Call `work(begin, end)` on shares of `count`, one a core, in threads: for work that releases the GIL."""
+    workers = max(1, min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1,
+                         count // _SHARE))  # fmt: skip
+    if workers == 1:
+        work(0, count)
+        return
+    edges = np.linspace(0, count, workers + 1).astype(int).tolist()
+    with ThreadPoolExecutor(workers) as pool:
+        list(pool.map(work, edges[:-1], edges[1:]))

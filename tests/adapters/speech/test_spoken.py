@@ -16,7 +16,7 @@ from fetch_pomdp.adapters.speech.audio import RATE
 from fetch_pomdp.adapters.speech.espeak import spoken
 from fetch_pomdp.adapters.speech.spoken import AFTER, BEFORE, SpokenWords, in_noise
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.planners.fixed import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import AudioError, MissingExtraError

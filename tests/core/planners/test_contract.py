@@ -15,16 +15,12 @@ from hypothesis import strategies as st
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, Planner, best_action
-from fetch_pomdp.core.planners.baselines.chai import ChaiRule
-from fetch_pomdp.core.planners.baselines.doshi_roy import DoshiRoy
-from fetch_pomdp.core.planners.baselines.information_gain import InformationGain
-from fetch_pomdp.core.planners.baselines.one_shot import OneShot
-from fetch_pomdp.core.planners.baselines.williams_young import WilliamsYoung
+from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk, ChaiRule, InformationGain, OneShot
+from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, NeverAsk, WilliamsYoung
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
-from fetch_pomdp.core.planners.exact import ExactAnswers
-from fetch_pomdp.core.planners.fitted import FittedValue
-from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
-from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.planners.fitted.planner import FittedValue
+from fetch_pomdp.core.planners.search.exact import ExactAnswers
+from fetch_pomdp.core.planners.search.sparse import SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene

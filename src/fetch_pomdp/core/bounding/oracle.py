@@ -38,8 +38,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, Vector, compiled, inlined, lean
+from fetch_pomdp.core.planners.fitted.table import closeness
 from fetch_pomdp.core.planners.kernels import NOBODY
-from fetch_pomdp.core.planners.pairs import closeness
 from fetch_pomdp.core.problem import Problem, Tables
 
 CELLS = 240  # of the grid over x

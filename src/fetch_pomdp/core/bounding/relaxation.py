@@ -3,7 +3,7 @@
 A scenario fixes the desired item, the base words and pointing of every step, and the noise of every step's answer. The
 search goes step by step. A layer holds the nodes that action sequences lead to: a belief, i_r and the sum S of the
 deltas on the way. Sequences that lead to the same answers lead to the same node, and the larger S counts: what follows
-is the same for both. Why nodes may be closed, and how, is told in `core.bounds`.
+is the same for both. Why nodes may be closed, and how, is told in `bounding.bounds`.
 """
 
 from __future__ import annotations
@@ -14,16 +14,21 @@ import numpy as np
 
 from fetch_pomdp.core.bounding.oracle import Oracle, ceiling
 from fetch_pomdp.core.compiled import GOLDEN, Integers, RandomState, Vector, compiled, inlined, lean, mixed, uniform
-from fetch_pomdp.core.planners.afterstate import (
-    ValueTable,
-    kind_of,
-    node_value,
+from fetch_pomdp.core.planners.fitted.ahead import one_pass
+from fetch_pomdp.core.planners.fitted.outlook import DistinctWords
+from fetch_pomdp.core.planners.fitted.table import ValueTable, kind_of, node_value, pair_class
+from fetch_pomdp.core.planners.kernels import (
+    NO,
+    NOBODY,
+    YES,
+    answered,
+    hear,
+    largest,
+    leading,
+    normalise,
+    select_answer,
+    smoothed_mass,
 )
-from fetch_pomdp.core.planners.ahead import one_pass
-from fetch_pomdp.core.planners.kernels import NO, NOBODY, YES, answered, hear, largest, normalise, select_answer
-from fetch_pomdp.core.planners.leaf import leading
-from fetch_pomdp.core.planners.outlook import DistinctWords, smoothed_mass
-from fetch_pomdp.core.planners.pairs import pair_class
 from fetch_pomdp.core.problem import Tables
 
 LAST = 30  # step at which every node is closed
@@ -101,7 +106,7 @@ def relaxed(seeds: RandomState, fixed: Relaxation, results: Vector, nodes: Integ
 def foreseen(scenario: Scenario, fixed: Relaxation, tables: Tables) -> tuple[float, int]:
     """Return the largest sum of deltas over all sequences of actions, and how many nodes were expanded.
 
-    No less than tau: see `core.bounds`.
+    No less than tau: see `bounding.bounds`.
     """
     count = len(tables.smoothing)
     beliefs = np.full((1, count), 1.0 / count)

@@ -8,15 +8,11 @@ from typing import Any
 
 from fetch_pomdp.checks import known
 from fetch_pomdp.core.planners.base import Planner
-from fetch_pomdp.core.planners.baselines.chai import ChaiRule
-from fetch_pomdp.core.planners.baselines.doshi_roy import DoshiRoy
-from fetch_pomdp.core.planners.baselines.information_gain import InformationGain
-from fetch_pomdp.core.planners.baselines.one_shot import OneShot
-from fetch_pomdp.core.planners.baselines.williams_young import WilliamsYoung
-from fetch_pomdp.core.planners.exact import ExactAnswers
-from fetch_pomdp.core.planners.fitted import FittedValue
-from fetch_pomdp.core.planners.fixed import AlwaysAsk, NeverAsk
-from fetch_pomdp.core.planners.sparse import SparseSampling
+from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk, ChaiRule, InformationGain, OneShot
+from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, NeverAsk, WilliamsYoung
+from fetch_pomdp.core.planners.fitted.planner import FittedValue
+from fetch_pomdp.core.planners.search.exact import ExactAnswers
+from fetch_pomdp.core.planners.search.sparse import SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.errors import PlannerError
 

@@ -1,97 +1,22 @@
-"""What the compiled searches share: numbers and arrays in, arrays out. Beliefs are probabilities here, (n_items,).
+"""The model compiled, for planners and simulations: what a person does in a step, and what it makes of a belief.
 
-`asked` and `about` are an item's index or NOBODY. A node at level k has the belief `work.beliefs[k]`; a search adds the
-values of its samples up in `work.totals[k]` (a question about item i at i, a wait at the end).
-
-A search walks its tree depth first with a cursor a level, `work.cursor`: compiled recursion cannot be cached on disk.
+Numbers and arrays in, arrays out. Beliefs are probabilities here, (n_items,); `asked` and `about` are an item's index
+or NOBODY.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
-from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, lean, standard_normal, uniform
+from fetch_pomdp.core.compiled import RandomState, Vector, inlined, lean, standard_normal, uniform
 from fetch_pomdp.core.gesture import ray_likelihood
 from fetch_pomdp.core.language import draw_word
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.rays import turned
 
-# Values of a wait, of questions and of picks; standard errors of the first two.
-RootValues = tuple[float, Vector, Vector, float, Vector]
-
 NOBODY = -1
 SILENT, YES, NO = 0, 1, 2
-
-
-class Search(NamedTuple):
-    """How far and how broadly to search."""
-
-    depth: int  # actions, 2 or more
-    width: int  # sampled observations at a node
-    questions: int  # items that may be asked about: all, or 0
-    patient: bool  # leaf `question` instead of `pick`
-
-
-# Where a search stands in one node.
-CURSOR = np.dtype(
-    [
-        ("asked", np.int64),
-        ("branch", np.int64),  # which sample, action and answer it is at
-        ("offset", np.float64),  # of the evenly spread draws
-        ("smoothed", np.float64),  # sum of the node's beliefs, each times its item's smoothing (Eq. 5)
-        ("desired", np.int64),  # the item drawn for the sample
-        ("speaks", np.float64),  # random numbers that select the sample's answer
-        ("means", np.float64),
-        ("chance", np.float64),  # of the answer
-        ("sums", np.float64),  # value of the sample and action, over the answers so far
-    ]
-)
-
-
-class Work(NamedTuple):
-    """Memory of a search, and its random numbers; a row for each level of the tree."""
-
-    beliefs: Vector  # (depth, n_items)
-    heard: Vector  # (depth, n_items), a node's belief after base words and pointing
-    totals: Vector  # (depth, n_items + 1), sums of values over samples
-    squares: Vector  # (depth, n_items + 1), sums of their squares
-    cursor: Any  # (depth,) of CURSOR
-    state: RandomState
-
-
-@compiled
-def workspace(belief: Vector, asked: int, depth: int, seed: int, tables: Tables) -> Work:
-    """Return the memory of a search from a belief and a last question."""
-    count = len(belief)
-    chances, values = np.empty((2, depth, count)), np.empty((2, depth, count + 1))
-    state = np.empty(1, dtype=np.uint64)
-    state[0] = seed
-    cursor = np.empty(depth, CURSOR)
-    work = Work(chances[0], chances[1], values[0], values[1], cursor, state)
-    for item in range(count):
-        work.beliefs[0, item] = belief[item]
-    enter(0, asked, work, tables)
-    return work
-
-
-@inlined
-def enter(level: int, asked: int, work: Work, tables: Tables) -> None:
-    """Start on a node whose belief is in place."""
-    for action in range(work.totals.shape[1]):
-        work.totals[level, action] = 0.0
-        work.squares[level, action] = 0.0
-    cursor = work.cursor
-    cursor["sums"][level] = 0.0
-    cursor["asked"][level] = asked
-    cursor["branch"][level] = 0
-    cursor["offset"][level] = uniform(work.state)
-    smoothed = 0.0
-    for item in range(work.beliefs.shape[1]):
-        smoothed += work.beliefs[level, item] * tables.smoothing[item]
-    cursor["smoothed"][level] = smoothed
 
 
 @inlined
@@ -225,30 +150,6 @@ def largest(belief: Vector) -> float:
     return found
 
 
-@lean
-def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
-    """Return the value of a node whose totals are complete: the best of picks, a wait and questions."""
-    best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(work.beliefs[level])
-    best = max(best, tables.wait + float(work.totals[level, -1]) / search.width)
-    for item in range(search.questions):
-        best = max(best, tables.point + float(work.totals[level, item]) / search.width)
-    return best
-
-
-@compiled
-def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
-    """Return what a search that is complete knows at its root."""
-    belief, means, errors, count = work.beliefs[0], work.totals[0], work.squares[0], work.beliefs.shape[1]
-    for action in range(count + 1):  # in place: fresh memory costs more than all that is computed here
-        mean = means[action] / search.width
-        spread = max(errors[action] / search.width - mean * mean, 0.0)
-        means[action] = mean + (tables.point if action < count else tables.wait)
-        errors[action] = math.sqrt(spread / max(search.width - 1, 1))
-    for item in range(count):
-        belief[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
-    return float(means[count]), means[:count], belief, float(errors[count]), errors[:count]
-
-
 @inlined
 def draw_item(belief: Vector, number: float) -> int:
     """Return the item that a uniform number in [0, 1) selects from a belief."""
@@ -260,3 +161,39 @@ def draw_item(belief: Vector, number: float) -> int:
             if reached > number:
                 break
     return last
+
+
+class Leading(NamedTuple):
+    """The three leading items and their beliefs, largest first; with fewer items a belief is 0 and its item 0."""
+
+    first: int
+    second: int
+    third: int
+    b1: float
+    b2: float
+    b3: float
+
+
+@inlined
+def leading(belief: Vector) -> Leading:
+    """Return the leaders of a belief; beliefs that do not exist count as 0."""
+    first, second, third, b1, b2, b3 = 0, 0, 0, 0.0, 0.0, 0.0
+    for item in range(len(belief)):
+        chance = belief[item]
+        if chance > b3:
+            if chance > b1:
+                first, second, third, b1, b2, b3 = item, first, second, chance, b1, b2
+            elif chance > b2:
+                second, third, b2, b3 = item, second, chance, b2
+            else:
+                third, b3 = item, chance
+    return Leading(first, second, third, b1, b2, b3)
+
+
+@inlined
+def smoothed_mass(belief: Vector, tables: Tables) -> float:
+    """Return the sum of the beliefs, each times its item's smoothing (Eq. 5)."""
+    total = 0.0
+    for item in range(len(belief)):
+        total += belief[item] * tables.smoothing[item]
+    return total

@@ -9,12 +9,9 @@ from numpy.random import Generator
 
 from fetch_pomdp import checks
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.compiled import Integers, Vector, compiled, lean
-from fetch_pomdp.core.planners.base import Decision, pick_values, unvalued
-from fetch_pomdp.core.planners.batch import action_of, on_all_cores
-from fetch_pomdp.core.planners.kernels import NOBODY
-from fetch_pomdp.core.planners.leaf import leading
-from fetch_pomdp.core.planners.root import checked_asked
+from fetch_pomdp.core.compiled import Integers, Vector, compiled, lean, on_all_cores
+from fetch_pomdp.core.planners.base import Decision, action_of, checked_asked, pick_values, unvalued
+from fetch_pomdp.core.planners.kernels import NOBODY, leading
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import simulate
 from fetch_pomdp.errors import PlannerError
@@ -51,7 +48,7 @@ class Threshold:
         return Decision(action_of(action, problem), np.nan, unvalued(problem), pick_values(probabilities, problem))
 
     def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:  # noqa: ARG002
-        """Choose an action for every belief, on all cores; see `batch.decide_many`."""
+        """Choose an action for every belief, on all cores; see `base.decide_many`."""
         actions = np.empty(len(beliefs), dtype=np.int64)
 
         def share(begin: int, end: int) -> None:
@@ -85,7 +82,7 @@ def tuned(problem: Problem, seed: int) -> Threshold:
 
 @lean
 def ruled(belief: Vector, asked: int, pick: float, pair: float, hold: float) -> int:
-    """Return the action of three limits, as in `planners.batch`."""
+    """Return the action of three limits, as in `planners.base`."""
     top = leading(belief)
     if top.b1 >= pick:
         return len(belief) + top.first

@@ -1,0 +1,206 @@
+"""Robots that follow a rule: Section IV's that always asks, and three after earlier work.
+
+Those after earlier work are what the paper's Section II says of it, put into the actions of Section III-B: no question
+but "this one?", about one item. None is the system of its authors. All wait as long as their belief is uniform: in this
+task the person speaks first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.random import Generator
+
+from fetch_pomdp import checks
+from fetch_pomdp.core.action import Action, Pick, Point, Wait
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.compiled import Integers, Vector
+from fetch_pomdp.core.planners.base import (
+    Decision,
+    action_of,
+    checked_asked,
+    is_uniform,
+    pick_values,
+    unvalued,
+)
+from fetch_pomdp.core.planners.kernels import NOBODY
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.errors import PlannerError
+
+Rule = Callable[[Vector], Integers]  # beliefs (k, n_items) to actions (k,), as in `planners.base`
+
+
+def decided(rule: Rule, problem: Problem, belief: Belief, asked: int | None) -> Decision:
+    """Return the decision of a rule, which values picks alone. Raises PlannerError for a belief of another table."""
+    probabilities = belief.probabilities
+    checked_asked(probabilities, asked, problem)
+    action = action_of(int(rule(probabilities[np.newaxis])[0]), problem)
+    return Decision(action, np.nan, unvalued(problem), pick_values(probabilities, problem))
+
+
+def question_or_pick(beliefs: Vector, item: Integers, asks: Vector) -> Integers:
+    """Return actions (k,): a question about an item (k,) where `asks` (k,) holds, else the pick of the likeliest.
+
+    A wait where the belief is uniform.
+    """
+    actions = np.where(asks, item, beliefs.shape[1] + beliefs.argmax(axis=1))
+    actions[is_uniform(beliefs)] = NOBODY
+    return actions
+
+
+@dataclass(frozen=True, slots=True)
+class ChaiRule:
+    """Asks about the likeliest item while there is more than one candidate, and picks the one that is left.
+
+    A candidate is an item whose belief is at least `ratio` times that of the likeliest. Source: Chai et al. [4], whose
+    "question asking policy, mapping state to action, is fixed" (Section II); the work is taken to be "Collaborative
+    effort towards common ground in situated human-robot dialogue", HRI 2014. Left out: their matching of a graph of
+    what is said with a graph of what is seen, questions that describe an item, and learning of words.
+
+    Choice: a ratio of 0.2, so that one word sets its items apart from the others: with the paper's alpha these keep
+    1/6 of the likeliest one's belief.
+
+    It values picks alone. Raises PlannerError for a ratio that is no number above 0 and up to 1.
+    """
+
+    ratio: float = 0.2
+
+    def __post_init__(self) -> None:
+        expected = "a share of the largest belief, above 0 and at most 1"
+        object.__setattr__(self, "ratio", checks.within(self.ratio, 1e-9, 1.0, "ratio", expected, PlannerError))
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:  # noqa: ARG002
+        """Choose by rule."""
+        return decided(self._actions, problem, belief, asked)
+
+    def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:  # noqa: ARG002
+        """Choose an action for every belief; see `base.decide_many`."""
+        return self._actions(beliefs)
+
+    def _actions(self, beliefs: Vector) -> Integers:
+        candidates = (beliefs >= self.ratio * beliefs.max(axis=1, keepdims=True)).sum(axis=1)
+        return question_or_pick(beliefs, beliefs.argmax(axis=1), candidates > 1)
+
+
+@dataclass(frozen=True, slots=True)
+class InformationGain:
+    """Asks the question that is expected to take most entropy from the belief, while that is worth its price; else
+    picks the likeliest item if that is worth a wait or more, and waits if not.
+
+    A bit is worth `worth` times what a right pick earns over a wrong one; a question's price is what it costs more than
+    a wait. Greedy: it looks no further than the answer. Source: the greedy choice of questions by entropy of Deits,
+    Tellex, Thaker, Simeonov, Kollar and Roy, "Clarifying commands with information-theoretic human-robot dialog",
+    Journal of Human-Robot Interaction 2013. Left out: their choice among kinds of questions and their grounding graphs.
+
+    Choice: only the answer counts as gained, for words and pointing come after a wait, too.
+
+    Choice: a worth of 1/2. A bit that decides between two items alike makes a sure pick of an even chance, and so earns
+    half of what a right pick earns over a wrong one.
+
+    It values picks alone. Raises PlannerError for a worth that is no number from 0 to 1000.
+    """
+
+    worth: float = 0.5
+
+    def __post_init__(self) -> None:
+        value = checks.within(self.worth, 0.0, 1e3, "worth", "a number from 0 to 1000", PlannerError)
+        object.__setattr__(self, "worth", value)
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:  # noqa: ARG002
+        """Choose by rule."""
+        return decided(lambda beliefs: self._actions(beliefs, problem), problem, belief, asked)
+
+    def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:  # noqa: ARG002
+        """Choose an action for every belief; see `base.decide_many`."""
+        return self._actions(beliefs, problem)
+
+    def _actions(self, beliefs: Vector, problem: Problem) -> Integers:
+        tables = problem.tables
+        earned = tables.pick_correct - tables.pick_wrong
+        gains = answer_information(beliefs, problem)
+        asks = self.worth * earned * gains.max(axis=1) > tables.wait - tables.point
+        actions = question_or_pick(beliefs, gains.argmax(axis=1), asks)
+        waits = ~asks & (earned * beliefs.max(axis=1) + tables.pick_wrong < tables.wait)
+        return np.where(waits, NOBODY, actions)
+
+
+def answer_information(beliefs: Vector, problem: Problem) -> Vector:
+    """Return the bits that the answer to a question about each item is expected to take from the entropy of a belief.
+
+    That is the mutual information of item and answer (Eq. 6, Table I), whatever else is heard left out:
+    p_l (H(yes) - H(p_truth)), with H(p) = -p log2 p - (1 - p) log2 (1 - p). beliefs, and the result: (..., n_items).
+    """
+    p_truth = problem.model.p_truth
+    yes = p_truth * beliefs + (1.0 - p_truth) * (1.0 - beliefs)
+    return problem.model.p_l * (binary_entropy(yes) - binary_entropy(np.array(p_truth)))
+
+
+def binary_entropy(chance: Vector) -> Vector:
+    """Return the entropy of a yes or no in bits; chance: of either, of any shape."""
+    safe = np.clip(chance, 1e-300, 1.0)
+    other = np.clip(1.0 - chance, 1e-300, 1.0)
+    return np.asarray(-safe * np.log2(safe) - other * np.log2(other))
+
+
+@dataclass(frozen=True, slots=True)
+class OneShot:
+    """Picks the likeliest item after the first observation that sets any item apart; it never asks.
+
+    With a `confidence` above 0 it waits until its belief has reached that. Source: [22], the paper's "previous work",
+    taken to be Whitney, Eldon, Oberlin and Tellex, "Interpreting multimodal referring expressions in real time", ICRA
+    2016: a Bayes filter over words and pointing, without a plan. Paradigm one (NeverAsk), "an improved version of the
+    model from our previous work" (Section IV), has the same filter and plans when to pick. Left out: their context of
+    the task, and their own likelihoods; the filter is ours (Eq. 1-7).
+
+    Choice: the paper does not say when the robot of [22] picks. The first observation makes it the fast and careless
+    end of the robots that never ask.
+
+    It values picks alone. Where not pointing tells items apart (`gesture_likelihood` "exact") that is an observation,
+    too. Raises PlannerError for a confidence that is no probability.
+    """
+
+    confidence: float = 0.0
+
+    def __post_init__(self) -> None:
+        value = checks.within(self.confidence, 0.0, 1.0, "confidence", "a probability from 0 to 1", PlannerError)
+        object.__setattr__(self, "confidence", value)
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:  # noqa: ARG002
+        """Wait, or pick the likeliest item."""
+        return decided(self._actions, problem, belief, asked)
+
+    def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:  # noqa: ARG002
+        """Choose an action for every belief; see `base.decide_many`."""
+        return self._actions(beliefs)
+
+    def _actions(self, beliefs: Vector) -> Integers:
+        waits = is_uniform(beliefs) | (beliefs.max(axis=1) < self.confidence)
+        return np.where(waits, NOBODY, beliefs.shape[1] + beliefs.argmax(axis=1))
+
+
+@dataclass(frozen=True, slots=True)
+class AlwaysAsk:
+    """Paradigm two: asks about the likeliest item, at least once, until it is `confidence` sure of it.
+
+    Choice: it waits as long as its belief is uniform, for there is no likeliest item to ask about.
+
+    It values picks alone. Raises PlannerError for a confidence that is no probability above 0.
+    """
+
+    confidence: float = 0.95
+
+    def __post_init__(self) -> None:
+        checks.within(self.confidence, 1e-9, 1.0, "confidence", "a probability above 0 and at most 1", PlannerError)
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:  # noqa: ARG002
+        """Wait, ask about the likeliest item, or pick it, by rule."""
+        probabilities = belief.probabilities
+        item = int(probabilities.argmax())
+        action: Action = Point(item)
+        if is_uniform(probabilities):
+            action = Wait()
+        elif asked is not None and probabilities[item] >= self.confidence:
+            action = Pick(item)
+        return Decision(action, np.nan, unvalued(problem), pick_values(probabilities, problem))

@@ -1,0 +1,126 @@
+"""Robots that search ahead with something left out: Section IV's that never asks, and two after earlier work.
+
+What is said of those after earlier work in `baselines.rules` holds here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.random import Generator
+
+from fetch_pomdp.core.action import Action, Point, Wait
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.planners.base import (
+    MOST_DEPTH,
+    MOST_WIDTH,
+    Decision,
+    best_action,
+    is_uniform,
+    unvalued,
+    whole_number,
+)
+from fetch_pomdp.core.planners.kernels import NOBODY
+from fetch_pomdp.core.planners.search.exact import ExactAnswers, default_width, plan_exact
+from fetch_pomdp.core.planners.search.leaf import last_action
+from fetch_pomdp.core.planners.search.tree import RootValues, Search, searched
+from fetch_pomdp.core.problem import Problem, Tables
+
+
+@dataclass(frozen=True, slots=True)
+class NeverAsk:
+    """Paradigm one: the search of the paper's depth and width without questions; it waits or picks.
+
+    Raises PlannerError for a depth or width that is no whole number in range.
+    """
+
+    depth: int = 2
+    width: int = 10
+
+    def __post_init__(self) -> None:
+        whole_number(self.depth, 1, MOST_DEPTH, "depth")
+        whole_number(self.width, 1, MOST_WIDTH, "width")
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+        """Choose to wait, or the likeliest item."""
+        if self.depth == 1:
+            return last_action(problem, belief)
+        search = Search(self.depth, self.width, questions=0, patient=False)
+        return searched(plan_exact, problem, belief, asked, search, rng)
+
+
+@dataclass(frozen=True, slots=True)
+class WilliamsYoung:
+    """Opens with a question whatever it believes, then asks or picks; the plan chooses about what, and when to end.
+
+    Source: Williams and Young [24], who "always ask questions, regardless of context, and use the POMDP to have a
+    policy on which questions to ask" (Section II); the work is taken to be "Partially observable Markov decision
+    processes for spoken dialog systems", Computer Speech and Language 2007. Their machine speaks and listens in turns:
+    it asks or submits, and never waits. The plan is the search of `ExactAnswers`. Left out: slots, their record of
+    what was grounded, confidence scores, and the fixed routine of the questions themselves.
+
+    Choice: where the belief is uniform it waits: their opening, "how may I help you?", is about no item, and who makes
+    a request has answered it.
+
+    Choice: looking ahead, the search allows waits, as that of `ExactAnswers` does; the action taken is never one.
+
+    Waits are worth NaN. Raises PlannerError for a depth or width that is no whole number in range.
+    """
+
+    depth: int = 2
+    width: int = 0
+
+    def __post_init__(self) -> None:
+        whole_number(self.depth, 1, MOST_DEPTH, "depth")
+        whole_number(self.width, 0, MOST_WIDTH, "width")
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+        """Choose the best question, or from the second decision on the best pick if that is better."""
+        found = ExactAnswers(self.depth, self.width).decide(problem, belief, asked, rng=rng)
+        probabilities = belief.probabilities
+        if is_uniform(probabilities):
+            return Decision(Wait(), np.nan, unvalued(problem), found.pick)
+        action: Action = Point(int(found.point.argmax()))
+        if asked is not None:
+            action = best_action(np.nan, found.point, found.pick)
+        return Decision(action, np.nan, found.point, found.pick, point_error=found.point_error)
+
+
+@dataclass(frozen=True, slots=True)
+class DoshiRoy:
+    """Asks, waits or picks by plan, without i_r: what was asked is forgotten when the step is over.
+
+    A yes or no right after a question is understood, for their observations depend on the action; a bare "no" later
+    says nothing about which item. So the plan expects nothing from waiting an answer out: it asks again. Source: Doshi
+    and Roy [6], who balance "question-asking for ambiguity clarification with action-taking" but whose "state
+    factorization does not include a representation of the human's belief's" (Section II); the work is taken to be
+    "Spoken language interaction with model uncertainty", Connection Science 2008. The plan is the search of
+    `ExactAnswers`. Left out: learning the rewards and the observation model from the user, and open questions.
+
+    Choice: only the plan forgets. The belief that it is handed has read late answers with i_r, as all planners' have.
+
+    Choice: the answer in the question's own step counts. If it did not, no question would be worth its price, and this
+    were one more robot that never asks.
+
+    Raises PlannerError for a depth or width that is no whole number in range; it looks two actions ahead or more.
+    """
+
+    depth: int = 2
+    width: int = 0
+
+    def __post_init__(self) -> None:
+        whole_number(self.depth, 2, MOST_DEPTH, "depth")
+        whole_number(self.width, 0, MOST_WIDTH, "width")
+
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+        """Choose the action with the highest value."""
+        width = self.width or default_width(problem.n_items)
+        search = Search(self.depth, width, problem.n_items, patient=True)
+        return searched(plan_forgetful, problem, belief, asked, search, rng)
+
+
+def plan_forgetful(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> RootValues:  # noqa: ARG001
+    """Search like `plan_exact` where nothing was asked before, and no answer comes after a wait."""
+    return plan_exact(belief, NOBODY, search, seed, tables._replace(p_again=0.0))

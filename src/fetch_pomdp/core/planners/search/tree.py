@@ -1,0 +1,140 @@
+"""The tree of the compiled searches, and from what is known at its root to a decision.
+
+A node at level k has the belief `work.beliefs[k]`; a search adds the values of its samples up in `work.totals[k]` (a
+question about item i at i, a wait at the end).
+
+A search walks its tree depth first with a cursor a level, `work.cursor`: compiled recursion cannot be cached on disk.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.random import Generator
+
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, lean, uniform
+from fetch_pomdp.core.planners.base import Decision, best_action, checked_asked, unvalued
+from fetch_pomdp.core.planners.kernels import largest
+from fetch_pomdp.core.problem import Problem, Tables
+
+_log = logging.getLogger(__name__)
+_compiled: set[Kernel] = set()  # searches that this process has told its user about
+
+# Values of a wait, of questions and of picks; standard errors of the first two.
+RootValues = tuple[float, Vector, Vector, float, Vector]
+
+
+class Search(NamedTuple):
+    """How far and how broadly to search."""
+
+    depth: int  # actions, 2 or more
+    width: int  # sampled observations at a node
+    questions: int  # items that may be asked about: all, or 0
+    patient: bool  # leaf `question` instead of `pick`
+
+
+Kernel = Callable[[Vector, int, Search, int, Tables], RootValues]
+
+# Where a search stands in one node.
+CURSOR = np.dtype(
+    [
+        ("asked", np.int64),
+        ("branch", np.int64),  # which sample, action and answer it is at
+        ("offset", np.float64),  # of the evenly spread draws
+        ("smoothed", np.float64),  # sum of the node's beliefs, each times its item's smoothing (Eq. 5)
+        ("desired", np.int64),  # the item drawn for the sample
+        ("speaks", np.float64),  # random numbers that select the sample's answer
+        ("means", np.float64),
+        ("chance", np.float64),  # of the answer
+        ("sums", np.float64),  # value of the sample and action, over the answers so far
+    ]
+)
+
+
+class Work(NamedTuple):
+    """Memory of a search, and its random numbers; a row for each level of the tree."""
+
+    beliefs: Vector  # (depth, n_items)
+    heard: Vector  # (depth, n_items), a node's belief after base words and pointing
+    totals: Vector  # (depth, n_items + 1), sums of values over samples
+    squares: Vector  # (depth, n_items + 1), sums of their squares
+    cursor: Any  # (depth,) of CURSOR
+    state: RandomState
+
+
+@compiled
+def workspace(belief: Vector, asked: int, depth: int, seed: int, tables: Tables) -> Work:
+    """Return the memory of a search from a belief and a last question."""
+    count = len(belief)
+    chances, values = np.empty((2, depth, count)), np.empty((2, depth, count + 1))
+    state = np.empty(1, dtype=np.uint64)
+    state[0] = seed
+    cursor = np.empty(depth, CURSOR)
+    work = Work(chances[0], chances[1], values[0], values[1], cursor, state)
+    for item in range(count):
+        work.beliefs[0, item] = belief[item]
+    enter(0, asked, work, tables)
+    return work
+
+
+@inlined
+def enter(level: int, asked: int, work: Work, tables: Tables) -> None:
+    """Start on a node whose belief is in place."""
+    for action in range(work.totals.shape[1]):
+        work.totals[level, action] = 0.0
+        work.squares[level, action] = 0.0
+    cursor = work.cursor
+    cursor["sums"][level] = 0.0
+    cursor["asked"][level] = asked
+    cursor["branch"][level] = 0
+    cursor["offset"][level] = uniform(work.state)
+    smoothed = 0.0
+    for item in range(work.beliefs.shape[1]):
+        smoothed += work.beliefs[level, item] * tables.smoothing[item]
+    cursor["smoothed"][level] = smoothed
+
+
+@lean
+def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
+    """Return the value of a node whose totals are complete: the best of picks, a wait and questions."""
+    best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(work.beliefs[level])
+    best = max(best, tables.wait + float(work.totals[level, -1]) / search.width)
+    for item in range(search.questions):
+        best = max(best, tables.point + float(work.totals[level, item]) / search.width)
+    return best
+
+
+@compiled
+def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
+    """Return what a search that is complete knows at its root."""
+    belief, means, errors, count = work.beliefs[0], work.totals[0], work.squares[0], work.beliefs.shape[1]
+    for action in range(count + 1):  # in place: fresh memory costs more than all that is computed here
+        mean = means[action] / search.width
+        spread = max(errors[action] / search.width - mean * mean, 0.0)
+        means[action] = mean + (tables.point if action < count else tables.wait)
+        errors[action] = math.sqrt(spread / max(search.width - 1, 1))
+    for item in range(count):
+        belief[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
+    return float(means[count]), means[:count], belief, float(errors[count]), errors[:count]
+
+
+def searched(
+    kernel: Kernel, problem: Problem, belief: Belief, asked: int | None, search: Search, rng: Generator
+) -> Decision:
+    """Return the decision of a search of two actions or more; questions that it may not ask are worth NaN."""
+    if kernel not in _compiled:
+        _compiled.add(kernel)
+        _log.info("loading the compiled planner; the first time after installation it is compiled, for some seconds")
+    probabilities = belief.probabilities
+    about = checked_asked(probabilities, asked, problem)
+    seed = int(rng.random() * 2.0**53)
+    wait, point, pick, wait_error, point_errors = kernel(probabilities, about, search, seed, problem.tables)
+    if search.questions == 0:
+        point = unvalued(problem)
+        return Decision(best_action(wait, point, pick), wait, point, pick, wait_error)
+    return Decision(best_action(wait, point, pick), wait, point, pick, wait_error, point_errors)
