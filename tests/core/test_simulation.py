@@ -34,7 +34,7 @@ class Scripted:
     def __init__(self, rule: Callable[[int], Action]) -> None:
         self.rule, self.asked, self.beliefs = rule, list[int | None](), list[Belief]()
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         del rng
         action = self.rule(len(self.asked))
         self.asked.append(asked)

@@ -58,7 +58,7 @@ class Stopwatch:
     planner: Planner
     seconds: list[float]
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         """Decide like the other."""
         begin = time.perf_counter()
         decision = self.planner.decide(problem, belief, asked, rng=rng)

@@ -61,6 +61,8 @@ class Agent:
         if len(self._belief.log_probabilities) != self.problem.n_items:
             found = len(self._belief.log_probabilities)
             raise ObservationError(f"found {found} probabilities, expected {self.problem.n_items}", field="prior")
+        self.phase = 0  # where the talk stands (`turns`)
+        self._acted: Action = Wait()  # since the last observation
         self._evidence = Evidence.none(self._belief.log_probabilities)
         self._steps = 0
 
@@ -102,8 +104,13 @@ class Agent:
     def update(self, observation: Observation) -> Utterance:
         """Take in an observation; return how its words were understood."""
         utterance = language.split(observation.words, self.problem)
-        parts = observations.log_likelihoods(observation, self.asked, self.problem, self.problem.model.p_l)
+        # Under constant chances all that depends on the action cancels, and a question's chances are never 0.
+        acted = self._acted if self.problem.model.turns else Point(0)
+        chances = self.problem.step_chances(acted, self.phase)
+        parts = observations.log_likelihoods(observation, self.asked, self.problem, chances)
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
+        self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase)
+        self._acted = Wait()
         self._evidence = self._evidence.plus(parts, answered=bool(utterance.response))
         self._steps += 1
         return utterance
@@ -117,7 +124,7 @@ class Agent:
         planner = self.planner
         if passes is not None and isinstance(planner, BudgetPlanner):
             planner = planner.with_passes(passes)
-        decision = planner.decide(self.problem, self._belief, self.asked, rng=rng)
+        decision = planner.decide(self.problem, self._belief, self.asked, phase=self.phase, rng=rng)
         return dataclasses.replace(decision, explanation=explain(decision, self._belief, self._evidence))
 
     def act(self) -> Action:
@@ -130,7 +137,7 @@ class Agent:
         """Go on from an action that the robot did: a question asked is i_r from now on."""
         if not isinstance(action, Wait) and not 0 <= action.item < self.problem.n_items:
             raise ActionError(f"found item {action.item}, expected an index below {self.problem.n_items}", field="item")
-        self.asked = asked_after(action, self.asked)
+        self.asked, self._acted = asked_after(action, self.asked), action
         if isinstance(action, Point):
             self._evidence = self._evidence.asked(action.item)
         self._steps += 1

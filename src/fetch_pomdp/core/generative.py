@@ -8,17 +8,20 @@ from numpy.random import Generator
 
 from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick, Point
-from fetch_pomdp.core.language import answer_rate
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """The state of Section III-B: the desired item, hidden, and the last item asked about, observed."""
+    """The state of Section III-B: the desired item, hidden, and the last item asked about, observed.
+
+    The phase (`turns`) is observed too, and 0 under the paper's constant chances.
+    """
 
     desired: int  # i_d
     asked: int | None = None  # i_r
+    phase: int = 0
 
 
 def reward(state: State, action: Action, problem: Problem) -> float:
@@ -42,6 +45,7 @@ def step(problem: Problem, state: State, action: Action, rng: Generator) -> tupl
     earned = reward(state, action, problem)
     if isinstance(action, Pick):
         return state, None, earned
-    following = State(state.desired, asked_after(action, state.asked))
-    seen = observations.sample(state.desired, following.asked, problem, answer_rate(action, problem), rng)
-    return following, seen, earned
+    asked, chances = asked_after(action, state.asked), problem.step_chances(action, state.phase)
+    seen = observations.sample(state.desired, asked, problem, chances, rng)
+    phase = observations.phase_after(seen, action, problem, state.phase)
+    return State(state.desired, asked, phase), seen, earned

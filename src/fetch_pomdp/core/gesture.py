@@ -80,9 +80,12 @@ def log_density(found: Vector, problem: Problem) -> Vector:
     return np.asarray(normal + math.log(2.0 / math.tau) - np.log(np.sin(np.maximum(found, SMALLEST_ANGLE))))
 
 
-def sample(desired: int, problem: Problem, rng: Generator) -> Ray | None:
-    """Draw the gesture of one step: a ray of 1 m from the scene's head, or None (Section III-D-2)."""
-    if rng.random() >= problem.model.p_g:
+def sample(desired: int, problem: Problem, p_points: float, rng: Generator) -> Ray | None:
+    """Draw the gesture of one step: a ray of 1 m from the scene's head, or None (Section III-D-2).
+
+    p_points: chance of pointing at all.
+    """
+    if rng.random() >= p_points:
         return None
     angle, roll = abs(rng.normal(0.0, problem.model.sigma)), rng.uniform(0.0, math.tau)
     x, y, z = turned(problem.tables.directions[desired], angle, roll)

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.random import Generator
 
-from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Vector, inlined
 from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.turns import StepChances
 from fetch_pomdp.core.words import NEGATIVE, POSITIVE, RESPONSES
 
 Words = tuple[str, ...]
@@ -59,17 +59,15 @@ def base_log_likelihood(base: Words, problem: Problem) -> Vector:
     return result
 
 
-def sample_base(desired: int, problem: Problem, rng: Generator) -> Words:
-    """Draw the base words of one step: one word, or none (Section III-D-1)."""
-    word = draw_word(desired, rng.random(), rng.random(), problem.tables)
-    return () if word < 0 else (problem.words[word],)
+def sample_base(desired: int, problem: Problem, p_words: float, rng: Generator) -> Words:
+    """Draw the base words of one step: one word, or none (Section III-D-1). p_words: chance of any."""
+    spoken, which = rng.random(), rng.random()
+    return (problem.words[draw_word(desired, which, problem.tables)],) if spoken < p_words else ()
 
 
 @inlined
-def draw_word(desired: int, spoken: float, which: float, tables: Tables) -> int:
-    """Return the index of the word that two uniform numbers in [0, 1) select by Eq. 4 and 5, or -1 for silence."""
-    if spoken >= tables.p_l:
-        return -1
+def draw_word(desired: int, which: float, tables: Tables) -> int:
+    """Return the index of the word that a uniform number in [0, 1) selects by Eq. 5."""
     # By Eq. 5 each of the item's own words has mass `smoothing`, and each word of the scene alpha times that on top.
     mass = tables.smoothing[desired]
     start, own = tables.item_starts[desired], tables.item_starts[desired + 1] - tables.item_starts[desired]
@@ -79,44 +77,42 @@ def draw_word(desired: int, spoken: float, which: float, tables: Tables) -> int:
     return min(int((slot - own) / tables.alpha), len(tables.word_starts) - 2)
 
 
-def response_log_likelihood(response: Words, asked: int | None, problem: Problem, rate: float) -> Vector:
+def response_log_likelihood(
+    response: Words, asked: int | None, problem: Problem, chances: StepChances
+) -> Vector:
     """Log probability of the response words given each item as the desired one, log p(l_r | i_d, i_r) (Eq. 6).
 
     Choice: Table I gives the probability of the class of a response word; within it each word is equally likely, so
     that the probabilities of all words sum to 1.
 
-    asked: index of i_r, or None. rate: chance of a response, see `answer_rate`. Returns (n_items,).
+    asked: index of i_r, or None. chances: see `Problem.step_chances`. Returns (n_items,).
     """
     if not response:
-        return np.full(problem.n_items, _log(1.0 - rate))
+        result = np.full(problem.n_items, _log(1.0 - chances.other))
+        if asked is not None:
+            result[asked] = _log(1.0 - chances.desired)
+        return result
     positive = sum(word in POSITIVE for word in response)
     negative = len(response) - positive
     within = positive * math.log(len(POSITIVE)) + negative * math.log(len(NEGATIVE))
     if asked is None:
-        return np.full(problem.n_items, _log(rate) - within + len(response) * math.log(0.5))
+        return np.full(problem.n_items, _log(chances.other) - within + len(response) * math.log(0.5))
     true, false = math.log(problem.model.p_truth), _log(1.0 - problem.model.p_truth)
-    result = np.full(problem.n_items, _log(rate) - within + _times(positive, false) + _times(negative, true))
-    result[asked] = _log(rate) - within + _times(positive, true) + _times(negative, false)
+    result = np.full(problem.n_items, _log(chances.other) - within + _times(positive, false) + _times(negative, true))
+    result[asked] = _log(chances.desired) - within + _times(positive, true) + _times(negative, false)
     return result
 
 
-def sample_response(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Words:
+def sample_response(
+    desired: int, asked: int | None, problem: Problem, chances: StepChances, rng: Generator
+) -> Words:
     """Draw the response of one step: one word, or none (Table I, Section III-D-1)."""
-    if rng.random() >= rate:
+    if rng.random() >= (chances.desired if asked == desired else chances.other):
         return ()
     p_truth = problem.model.p_truth
     p_positive = 0.5 if asked is None else p_truth if asked == desired else 1.0 - p_truth
     words = POSITIVE if rng.random() < p_positive else NEGATIVE
     return (words[int(rng.random() * len(words))],)
-
-
-def answer_rate(action: Action, problem: Problem) -> float:
-    """Return the chance of a response in the step after `action`.
-
-    Choice: Eq. 6 lets the person answer anew at every step once something was asked; real people answer once. So in a
-    step after a wait, p_l is multiplied by p_answer_again (1 by default: the paper to the letter).
-    """
-    return problem.tables.p_again if isinstance(action, Wait) else problem.tables.p_l
 
 
 def _log(probability: float) -> float:

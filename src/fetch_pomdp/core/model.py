@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Self, get_args
 
 from fetch_pomdp import checks
+from fetch_pomdp.core.turns import Turns
 from fetch_pomdp.errors import ModelError
 
 GestureLikelihood = Literal["eq7", "exact"]
@@ -28,6 +29,7 @@ class Model:
     gesture_threshold: float = 0.3  # rad: a ray farther than this from every item is no pointing, in (0, pi]
     gesture_likelihood: GestureLikelihood = "eq7"  # or "exact", the density of the sampled rays
     p_answer_again: float = 1.0  # factor on p_l for a response in a step after a wait, in [0, 1]
+    turns: Turns | None = None  # of live people, who speak and point by where the talk stands; none in the paper
 
     def __post_init__(self) -> None:
         ranges = {
@@ -45,10 +47,17 @@ class Model:
         if self.gesture_likelihood not in get_args(GestureLikelihood):
             found = checks.shown(self.gesture_likelihood)
             raise ModelError(f"found {found}, expected 'eq7' or 'exact'", field="gesture_likelihood")
+        if self.turns is not None and not isinstance(self.turns, Turns):
+            raise ModelError(f"found {checks.shown(self.turns)}, expected a table of chances, or none", field="turns")
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
         """Return this model with some parameters changed. Raises ModelError for a name that is none."""
         checks.known(changes, [field.name for field in dataclasses.fields(self)], "parameter", ModelError)
+        if isinstance(turns := changes.get("turns"), Mapping):
+            try:
+                changes = {**changes, "turns": (self.turns or Turns()).with_changes(turns)}
+            except ModelError as error:
+                raise error.within("turns") from None
         return dataclasses.replace(self, **changes)
 
 

@@ -8,9 +8,12 @@ from typing import NamedTuple
 from numpy.random import Generator
 
 from fetch_pomdp.core import gesture, language
+from fetch_pomdp.core.action import Action, Point
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.turns import NO, SILENT, YES, StepChances
+from fetch_pomdp.core.words import POSITIVE
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,22 +38,37 @@ class Parts(NamedTuple):
         return result
 
 
-def log_likelihoods(observation: Observation, asked: int | None, problem: Problem, rate: float) -> Parts:
+def log_likelihoods(
+    observation: Observation, asked: int | None, problem: Problem, chances: StepChances
+) -> Parts:
     """Log p(o | i_d, i_r) for each item as the desired one (Eq. 1-3), part by part: given the state they are
     independent.
 
-    asked: index of i_r, or None. rate: chance of a response, see `language.answer_rate`.
+    asked: index of i_r, or None. chances: of the step, see `Problem.step_chances`.
     """
     utterance = language.split(observation.words, problem)
     return Parts(
         language.base_log_likelihood(utterance.base, problem),
-        language.response_log_likelihood(utterance.response, asked, problem, rate),
+        language.response_log_likelihood(utterance.response, asked, problem, chances),
         gesture.log_likelihood(observation.ray, problem),
     )
 
 
-def sample(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Observation:
-    """Draw an observation o ~ p(o | i_d, i_r). rate: chance of a response, see `language.answer_rate`."""
-    base = language.sample_base(desired, problem, rng)
-    response = language.sample_response(desired, asked, problem, rate, rng)
-    return Observation(base + response, gesture.sample(desired, problem, rng))
+def sample(desired: int, asked: int | None, problem: Problem, chances: StepChances, rng: Generator) -> Observation:
+    """Draw an observation o ~ p(o | i_d, i_r). chances: of the step, see `Problem.step_chances`."""
+    base = language.sample_base(desired, problem, chances.words, rng)
+    response = language.sample_response(desired, asked, problem, chances, rng)
+    return Observation(base + response, gesture.sample(desired, problem, chances.points, rng))
+
+
+def phase_after(observation: Observation, action: Action, problem: Problem, phase: int = 0) -> int:
+    """Return the phase (`turns`) that a step leads to which began with an action; of several responses the last
+    counts.
+    """
+    utterance = language.split(observation.words, problem)
+    answer = SILENT
+    if utterance.response:
+        answer = YES if utterance.response[-1] in POSITIVE else NO
+    seen = observation.ray is not None and gesture.is_pointing(observation.ray, problem)
+    following = problem.tables.following[phase, int(isinstance(action, Point)), int(bool(utterance.base)), int(seen)]
+    return int(following[answer])

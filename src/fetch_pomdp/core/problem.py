@@ -10,10 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fetch_pomdp.core.action import Action, Point
 from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.rays import LARGEST_EXACT, miss_chances, unit_directions
 from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.turns import SILENT, StepChances, constant_phases, phases_of
 from fetch_pomdp.errors import ModelError
 
 
@@ -42,6 +44,10 @@ class Tables(NamedTuple):
     pick_wrong: float
     point: float
     wait: float
+    chances: Vector  # (phases, 2, 4), and the next two: see `turns.Phases`
+    following: Integers  # (phases, 2, 2, 2, 3)
+    alike: Integers  # (phases,)
+    begun: Integers  # (phases,)
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
@@ -83,6 +89,15 @@ class Problem:
         """How many items there are, |I|."""
         return len(self.scene.items)
 
+    def step_chances(self, action: Action, phase: int = 0) -> StepChances:
+        """Return the chances of the step after an action, begun in a phase (`turns`).
+
+        Choice: Eq. 6 lets the person answer anew at every step once something was asked; real people answer once. So
+        under the paper's constant chances, in a step after a wait p_l is multiplied by p_answer_again (1 by default:
+        the paper to the letter).
+        """
+        return StepChances(*self.tables.chances[phase, int(isinstance(action, Point))].tolist())
+
     def with_exact_rays(self) -> Problem:
         """Return the problem under the likelihood of the rays' sampler. Raises ModelError for too many items."""
         if self.model.gesture_likelihood == "exact":
@@ -105,6 +120,8 @@ class Problem:
         owners = np.repeat(np.arange(len(items)), sizes)
         directions = unit_directions(np.array(self.scene.head), self.positions)
         exact = model.gesture_likelihood == "exact"
+        p_again = model.p_l * model.p_answer_again
+        phases = phases_of(model.turns) if model.turns else constant_phases(model.p_l, p_again, model.p_g)
         missed = miss_chances(directions, model.sigma, model.gesture_threshold) if exact else np.zeros(len(items))
         return Tables(
             directions=directions,
@@ -116,7 +133,7 @@ class Problem:
             word_items=owners[np.argsort(item_words, kind="stable")].astype(np.int64),
             alpha=model.alpha,
             p_l=model.p_l,
-            p_again=model.p_l * model.p_answer_again,
+            p_again=p_again,
             p_g=model.p_g,
             sigma=model.sigma,
             threshold=min(model.gesture_threshold, math.pi),
@@ -126,4 +143,8 @@ class Problem:
             pick_wrong=rewards.pick_wrong,
             point=rewards.point,
             wait=rewards.wait,
+            chances=phases.chances,
+            following=phases.following,
+            alike=phases.alike,
+            begun=phases.begun,
         )

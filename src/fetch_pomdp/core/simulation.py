@@ -17,7 +17,7 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, on_all_cores
 from fetch_pomdp.core.generative import State, reward, step
 from fetch_pomdp.core.planners.base import Planner, decide_many, whole_number
-from fetch_pomdp.core.planners.kernels import NOBODY, live_step, smoothed_mass
+from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, live_step, smoothed_mass
 from fetch_pomdp.core.problem import Problem, Tables
 
 MOST_STEPS = 30  # waits and questions, after which the robot picks whatever it holds likeliest
@@ -56,13 +56,14 @@ def run_episode(problem: Problem, planner: Planner, desired: int, person: Genera
     state, belief = State(desired), Belief.uniform(problem.n_items)
     total, questions = 0.0, 0
     for steps in range(MOST_STEPS):
-        action = planner.decide(problem, belief, state.asked, rng=robot).action
+        action = planner.decide(problem, belief, state.asked, rng=robot, phase=state.phase).action
+        chances = problem.step_chances(action, state.phase) if problem.model.turns else None
         state, observation, earned = step(problem, state, action, person)
         total += earned
         if observation is None:
             return Episode(total, action == Pick(state.desired), steps, questions)
         questions += isinstance(action, Point)
-        belief = belief.updated(observation, state.asked, problem)
+        belief = belief.updated(observation, state.asked, problem, chances=chances)
     last = Pick(int(belief.log_probabilities.argmax()))
     return Episode(total + reward(state, last, problem), last.item == desired, MOST_STEPS, questions)
 
@@ -75,6 +76,7 @@ class Interactions:
     people: RandomState  # (k,), states of `compiled.uniform`
     beliefs: Vector  # (k, n_items)
     asked: Integers  # (k,), i_r or -1
+    phases: Integers  # (k,), see `turns`
     earned: Vector  # (k,)
     correct: Integers  # (k,), 1 where the right item was picked
     steps: Integers  # (k,), waits and questions
@@ -85,16 +87,16 @@ class Interactions:
     def begin(cls, desired: Integers, people: RandomState, n_items: int) -> Interactions:
         """Return interactions before their first action, with uniform beliefs."""
         count = len(desired)
-        numbers = [np.zeros(count, dtype=np.int64) for _ in range(4)]
+        phases, *numbers = (np.zeros(count, dtype=np.int64) for _ in range(5))
         beliefs, asked = np.full((count, n_items), 1.0 / n_items), np.full(count, NOBODY)
-        return cls(desired, people, beliefs, asked, np.zeros(count), *numbers)
+        return cls(desired, people, beliefs, asked, phases, np.zeros(count), *numbers)
 
     def advance(self, active: Integers, actions: Integers, problem: Problem) -> None:
         """Do actions, (m,) as in `planners.base`, in the active interactions, (m,); people then speak and point."""
 
         def share(begin: int, end: int) -> None:
             _advance(
-                active[begin:end], actions[begin:end], self.desired, self.people, self.beliefs, self.asked,
+                active[begin:end], actions[begin:end], self.desired, self.people, self.beliefs, self.asked, self.phases,
                 self.earned, self.correct, self.steps, self.questions, self.over, problem.tables,
             )  # fmt: skip
 
@@ -103,7 +105,7 @@ class Interactions:
 
 @compiled
 def _advance(
-    active: Integers, actions: Integers, desired: Integers, people: RandomState, beliefs: Vector, asked: Integers,
+    active: Integers, actions: Integers, desired: Integers, people: RandomState, beliefs: Vector, asked: Integers, phases: Integers,
     earned: Vector, correct: Integers, steps: Integers, questions: Integers, over: Integers, tables: Tables,
 ) -> None:  # fmt: skip
     count = len(tables.smoothing)
@@ -116,13 +118,15 @@ def _advance(
             over[k] = 1
             continue
         steps[k] += 1
-        rate = tables.p_again
+        kind = WAITED
         earned[k] += tables.wait if action == NOBODY else tables.point
         if action != NOBODY:
             questions[k] += 1
-            asked[k], rate = action, tables.p_l
+            asked[k], kind = action, ASKED
         smoothed = smoothed_mass(beliefs[k], tables)
-        live_step(beliefs[k], smoothed, desired[k], asked[k], rate, work, people[k : k + 1], tables)
+        phases[k] = live_step(
+            beliefs[k], smoothed, desired[k], asked[k], phases[k], kind, work, people[k : k + 1], tables
+        )
 
 
 def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Summary:
@@ -168,7 +172,8 @@ def played_out(problem: Problem, planner: Planner, interactions: Interactions, r
     """Play interactions to their ends, and return them."""
     active = np.arange(len(interactions.desired))
     for _ in range(MOST_STEPS):
-        actions = decide_many(planner, problem, interactions.beliefs[active], interactions.asked[active], rng=robot)
+        actions = decide_many(planner, problem, interactions.beliefs[active], interactions.asked[active], rng=robot,
+                              phases=interactions.phases[active])  # fmt: skip
         interactions.advance(active, actions, problem)
         active = active[interactions.over[active] == 0]
         if not len(active):

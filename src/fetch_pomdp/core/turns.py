@@ -8,7 +8,8 @@ next step depend on it (mixed observability: Ong et al. 2010).
 A phase is a talk times QUESTIONS plus a question, two numbers of which each says one thing:
 
 - talk: UNBEGUN; POINTED, since the step before; DUE, pointed for longer, so that words are due; HEARD + k, k quiet steps
-  after words, where k = patience stands for all that is longer.
+  after the words of somebody who has pointed, where k = patience stands for all that is longer; and as many for somebody
+  who has not pointed.
 - question: NO_QUESTION; DENIED, answered by "no" in the step before; OPEN for one step; OPEN_LONG.
 
 The paper's model has the phase 0 alone.
@@ -33,12 +34,15 @@ from fetch_pomdp.errors import ModelError
 UNBEGUN, POINTED, DUE, HEARD = range(4)
 NO_QUESTION, DENIED, OPEN, OPEN_LONG = range(4)
 QUESTIONS = 4
+GROUPS = ("unbegun", "pointed", "due", "heard", "said", "silent")
 SILENT, YES, NO = range(3)  # answers
 WORDS, POINTS, DESIRED, OTHER = range(4)  # columns of `Phases.chances`
 MOST_PATIENCE = 50  # steps
+LEAST = 1e-6  # so that nothing that is heard is impossible
 
 Chances = tuple[float, float]  # in a step after a wait, and in the step of a question
-Ages = tuple[float, float, float]  # in the step of a question, in the next step, and in each later one
+# In the step of a question, in that of one asked while another was open, in the step after, and in each later one.
+Ages = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,31 +56,30 @@ class Turns:
     words_unbegun: Chances = (0.2, 0.6)
     words_pointed: Chances = (0.2, 0.8)
     words_due: Chances = (0.5, 0.85)
+    words_said: Chances = (0.05, 0.05)
     words_heard: Chances = (0.05, 0.05)
     words_silent: Chances = (0.15, 0.3)
     words_denied: Chances = (0.1, 0.3)
     points_unbegun: Chances = (0.6, 0.8)
     points_pointed: Chances = (0.95, 0.95)
     points_due: Chances = (0.8, 0.8)
+    points_said: Chances = (0.05, 0.05)
     points_heard: Chances = (0.3, 0.5)
     points_silent: Chances = (0.3, 0.4)
     points_denied: Chances = (0.6, 0.7)
-    answers_desired: Ages = (0.6, 0.6, 0.3)  # of an answer if the item asked about is the desired one
-    answers_other: Ages = (0.3, 0.5, 0.5)  # and if it is not
-    answers_settled: float = 0.01  # of another answer where no question is open
+    answers_desired: Ages = (0.5, 0.6, 0.6, 0.2)  # of an answer if the item asked about is the desired one
+    answers_other: Ages = (0.25, 0.6, 0.5, 0.3)  # and if it is not
+    answers_settled: tuple[float] = (0.01,)  # of another answer where no question is open
     patience: int = 6  # quiet steps after which people say it again
     question: int = 3  # quiet steps that the step of a question counts for
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
-            if field.name in {"patience", "question"}:
+            if field.type == "int":
                 _whole(value, field.name)
-            elif field.name == "answers_settled":
-                object.__setattr__(self, field.name, _chance(value, field.name))
             else:
-                count = 3 if field.name.startswith("answers") else 2
-                object.__setattr__(self, field.name, _chances(value, count, field.name))
+                object.__setattr__(self, field.name, _chances(value, len(field.default), field.name))  # type: ignore[arg-type]
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
         """Return these chances with some changed. Raises ModelError for an unknown name."""
@@ -90,14 +93,20 @@ def _whole(value: object, field: str) -> None:
         raise ModelError(f"found {checks.shown(value)}, expected {expected}", field=field)
 
 
-def _chance(value: object, field: str) -> float:
-    return checks.within(value, 0.0, 1 - 1e-9, field, "a probability from 0 to below 1", ModelError)
-
-
 def _chances(value: object, count: int, field: str) -> tuple[float, ...]:
+    expected = f"a list of {count} probabilities above 0 and below 1"
     if isinstance(value, str) or not isinstance(value, list | tuple) or len(value) != count:
-        raise ModelError(f"found {checks.shown(value)}, expected a list of {count} probabilities", field=field)
-    return tuple(_chance(part, field) for part in value)
+        raise ModelError(f"found {checks.shown(value)}, expected {expected}", field=field)
+    return tuple(checks.within(part, LEAST, 1.0 - LEAST, field, expected, ModelError) for part in value)
+
+
+class StepChances(NamedTuple):
+    """Chances of base words, of pointing, and of an answer by whether the item asked about is the desired one."""
+
+    words: float
+    points: float
+    desired: float
+    other: float
 
 
 class Phases(NamedTuple):
@@ -106,12 +115,13 @@ class Phases(NamedTuple):
     chances: Vector  # (phases, 2 kinds of step, 4): WORDS, POINTS; an answer if the item is DESIRED, or an OTHER
     following: Integers  # (phases, 2 kinds of step, 2 words heard, 2 pointing seen, 3 answers), the next phase
     alike: Integers  # (phases,), number of the group of phases that a fitted value takes for one
+    begun: Integers  # (phases,), 0 where nobody has spoken or pointed yet, so that there is nothing to decide
 
 
 def constant_phases(p_l: float, p_again: float, p_g: float) -> Phases:
     """Return the paper's one phase. p_again: chance of an answer in a step after a wait."""
     chances = np.array([[[p_l, p_g, p_again, p_again], [p_l, p_g, p_l, p_l]]])
-    return Phases(chances, np.zeros((1, 2, 2, 2, 3), dtype=np.int64), np.zeros(1, dtype=np.int64))
+    return Phases(chances, np.zeros((1, 2, 2, 2, 3), dtype=np.int64), np.zeros(1, dtype=np.int64), np.ones(1, dtype=np.int64))
 
 
 def phases_of(turns: Turns) -> Phases:
@@ -119,48 +129,57 @@ def phases_of(turns: Turns) -> Phases:
 
     Choice: a fitted value takes the phases between the words of a request and people's patience for one.
     """
-    silent = HEARD + turns.patience
-    count = (silent + 1) * QUESTIONS
-    chances, alike = np.empty((count, 2, 4)), np.empty(count, dtype=np.int64)
-    following = np.empty((count, 2, 2, 2, 3), dtype=np.int64)
-    for phase in range(count):
+    talks = HEARD + 2 * (turns.patience + 1)
+    count = talks * QUESTIONS
+    chances, following = np.empty((count, 2, 4)), np.empty((count, 2, 2, 2, 3), dtype=np.int64)
+    for phase, asked in np.ndindex(count, 2):
         talk, question = divmod(phase, QUESTIONS)
-        alike[phase] = (min(talk, HEARD) + (talk == silent)) * QUESTIONS + question
-        name = "denied" if question == DENIED else _talk_name(talk, silent)
-        for asked in (0, 1):
-            words, points = getattr(turns, f"words_{name}")[asked], getattr(turns, f"points_{name}")[asked]
-            chances[phase, asked] = words, points, *_answer_chances(turns, question, asked)
-            for words_heard, seen, answer in np.ndindex(2, 2, 3):
-                talk_after = _talk_after(talk, asked * (turns.question - 1) + 1, words_heard, seen, silent)
-                following[phase, asked, words_heard, seen, answer] = (
-                    talk_after * QUESTIONS + _question_after(question, asked, answer)
-                )
-    return Phases(chances, following, alike)
+        chances[phase, asked] = [getattr(turns, name)[index] for name, index in places_of(phase, asked, turns.patience)]
+        for words, seen, answer in np.ndindex(2, 2, 3):
+            after = _talk_after(talk, turns.question if asked else 1, words, seen, turns.patience)
+            following[phase, asked, words, seen, answer] = after * QUESTIONS + _question_after(question, asked, answer)
+    groups = {name: number for number, name in enumerate(GROUPS)}
+    alike = [groups[_name(phase // QUESTIONS, turns.patience)] * QUESTIONS + phase % QUESTIONS for phase in range(count)]
+    begun = np.arange(count) // QUESTIONS != UNBEGUN
+    return Phases(chances, following, np.array(alike), begun.astype(np.int64))
 
 
-def _talk_name(talk: int, silent: int) -> str:
-    return "silent" if talk == silent else ("unbegun", "pointed", "due", "heard")[min(talk, HEARD)]
+def places_of(phase: int, asked: int, patience: int) -> tuple[tuple[str, int], ...]:
+    """Return where `Turns` has the chances of a step: fields and indices, in the order of StepChances.
 
-
-def _answer_chances(turns: Turns, question: int, asked: int) -> tuple[float, float]:
+    asked: 0 for a step after a wait, 1 for that of a question.
+    """
+    talk, question = divmod(phase, QUESTIONS)
+    name = "denied" if question == DENIED else _name(talk, patience)
     if not asked and question in (NO_QUESTION, DENIED):
-        return turns.answers_settled, turns.answers_settled
-    age = 0 if asked else 1 if question == OPEN else 2
-    return turns.answers_desired[age], turns.answers_other[age]
+        return (f"words_{name}", 0), (f"points_{name}", 0), ("answers_settled", 0), ("answers_settled", 0)
+    age = int(question >= OPEN) if asked else 2 if question == OPEN else 3
+    return (f"words_{name}", asked), (f"points_{name}", asked), ("answers_desired", age), ("answers_other", age)
 
 
-def _talk_after(talk: int, quiet: int, words: int, seen: int, silent: int) -> int:
+def _name(talk: int, patience: int) -> str:
+    """Return what the chances of a talk are called."""
+    if talk < HEARD:
+        return GROUPS[talk]
+    unpointed, quiet = divmod(talk - HEARD, patience + 1)
+    return "silent" if quiet == patience else "said" if unpointed else "heard"
+
+
+def _talk_after(talk: int, quiet: int, words: int, seen: int, patience: int) -> int:
     """Return the talk after a step. quiet: steps that it counts for if nothing is said in it.
 
     Choice: who points after a long silence says it all again, so words are due.
     """
+    unpointed = HEARD + patience + 1  # the first talk of those who have not pointed
+    pointed = seen or talk in (POINTED, DUE) or HEARD <= talk < unpointed
     if words:
-        return HEARD
-    if talk >= HEARD:
-        return DUE if talk == silent and seen else min(talk + quiet, silent)
-    if talk == UNBEGUN:
-        return POINTED if seen else UNBEGUN
-    return DUE
+        return HEARD if pointed else unpointed
+    if talk < HEARD:
+        return DUE if talk != UNBEGUN else POINTED if seen else UNBEGUN
+    before = (talk - HEARD) % (patience + 1)
+    if before == patience and seen:
+        return DUE
+    return (HEARD if pointed else unpointed) + min(before + quiet, patience)
 
 
 def _question_after(question: int, asked: int, answer: int) -> int:

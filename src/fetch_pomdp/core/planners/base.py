@@ -52,7 +52,7 @@ class Decision:
 class Planner(Protocol):
     """Decides. It keeps no state between calls: the same arguments and generator state give the same decision."""
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         """Choose an action for a belief and i_r, the index of the last item asked about, or None."""
         ...
 
@@ -132,12 +132,17 @@ def checked_asked(probabilities: Vector, asked: int | None, problem: Problem) ->
 class BatchPlanner(Protocol):
     """A planner that decides for many beliefs faster than one by one."""
 
-    def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:
+    def decide_many(
+        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
+    ) -> Integers:
         """Choose an action for every belief; see `decide_many`."""
         ...
 
 
-def decide_many(planner: Planner, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:
+def decide_many(
+    planner: Planner, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator,
+    phases: Integers | None = None,
+) -> Integers:  # fmt: skip
     """Return an action for every belief, (k,): the same as deciding one by one in this order.
 
     beliefs: (k, n_items), rows that sum to 1. asked: (k,), i_r as an index, -1 for None. Raises PlannerError for arrays
@@ -150,16 +155,19 @@ def decide_many(planner: Planner, problem: Problem, beliefs: Vector, asked: Inte
         found = f"found {asked.min()} to {asked.max()}, expected -1 to {problem.n_items - 1}"
         raise PlannerError(found, field="asked")
     if isinstance(planner, BatchPlanner):
-        return planner.decide_many(problem, np.ascontiguousarray(beliefs), asked.astype(np.int64), rng=rng)
-    return one_by_one(planner, problem, beliefs, asked, rng)
+        return planner.decide_many(problem, np.ascontiguousarray(beliefs), asked.astype(np.int64), rng=rng, phases=phases)
+    return one_by_one(planner, problem, beliefs, asked, rng, phases)
 
 
-def one_by_one(planner: Planner, problem: Problem, beliefs: Vector, asked: Integers, rng: Generator) -> Integers:
+def one_by_one(
+    planner: Planner, problem: Problem, beliefs: Vector, asked: Integers, rng: Generator, phases: Integers | None = None
+) -> Integers:
     """Return an action for every belief, (k,), decided in their order."""
-    codes = [
-        code_of(planner.decide(problem, Belief(belief), None if about < 0 else int(about), rng=rng).action, problem)
-        for belief, about in zip(beliefs, asked, strict=True)
-    ]
+    codes = []
+    for belief, about, phase in zip(beliefs, asked, np.zeros_like(asked) if phases is None else phases, strict=True):
+        last = None if about < 0 else int(about)
+        decision = planner.decide(problem, Belief(belief), last, rng=rng, phase=int(phase))
+        codes.append(code_of(decision.action, problem))
     return np.array(codes, dtype=np.int64)
 
 

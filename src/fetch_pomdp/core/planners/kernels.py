@@ -14,24 +14,49 @@ from fetch_pomdp.core.gesture import ray_likelihood
 from fetch_pomdp.core.language import draw_word
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.rays import turned
+from fetch_pomdp.core.turns import DESIRED, NO, OTHER, POINTS, SILENT, WORDS, YES
 
 NOBODY = -1
-SILENT, YES, NO = 0, 1, 2
+WAITED, ASKED = 0, 1  # kinds of step, see `turns.Phases`
+
+
+class Heard(NamedTuple):
+    """What a step was like, as far as the phase after it depends on that: whether words came, and pointing."""
+
+    words: int
+    seen: int
 
 
 @inlined
-def hear(belief: Vector, smoothed: float, desired: int, heard: Vector, state: RandomState, tables: Tables) -> None:
-    """Fill in the belief after base words and a gesture drawn for the desired item (Eq. 4, 5, 7)."""
-    word = draw_word(desired, uniform(state), uniform(state), tables)
-    if word < 0:
-        for item in range(len(belief)):
-            heard[item] = belief[item]
-    else:
-        hear_word(belief, smoothed, word, heard, tables)
-    if uniform(state) < tables.p_g:
-        see(desired, heard, state, tables)
+def hear(
+    belief: Vector, smoothed: float, desired: int, phase: int, kind: int, heard: Vector, state: RandomState,
+    tables: Tables,
+) -> Heard:  # fmt: skip
+    """Fill in the belief after base words and a gesture drawn for the desired item (Eq. 4, 5, 7).
+
+    phase: in which the step began; kind: of the step.
+    """
+    chances = tables.chances[phase, kind]
+    words, seen = spoken(desired, uniform(state) < chances[WORDS], belief, smoothed, heard, state, tables), 0
+    if uniform(state) < chances[POINTS]:
+        seen = see(desired, heard, state, tables)
     else:
         see_nothing(heard, tables)
+    return Heard(words, seen)
+
+
+@inlined
+def spoken(
+    desired: int, speaks: bool, belief: Vector, smoothed: float, heard: Vector, state: RandomState, tables: Tables
+) -> int:
+    """Fill in the belief after a word drawn for the desired item, if anything was said; return whether there was."""
+    which = uniform(state)
+    if speaks:
+        hear_word(belief, smoothed, draw_word(desired, which, tables), heard, tables)
+        return 1
+    for item in range(len(belief)):
+        heard[item] = belief[item]
+    return 0
 
 
 @inlined
@@ -51,8 +76,8 @@ def hear_word(belief: Vector, smoothed: float, word: int, heard: Vector, tables:
 
 
 @lean
-def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> None:
-    """Update by a ray drawn around the desired item (Eq. 7)."""
+def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> int:
+    """Update by a ray drawn around the desired item (Eq. 7); return whether it points at the table."""
     angle, roll = abs(standard_normal(state)) * tables.sigma, 2.0 * math.pi * uniform(state)
     x, y, z = turned(tables.directions[desired], angle, roll)
     nearest = -1.0
@@ -60,11 +85,12 @@ def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> None
         nearest = max(nearest, cosine_of(item, x, y, z, tables))
     if nearest < math.cos(tables.threshold):
         see_nothing(heard, tables)
-        return
+        return 0
     for item in range(len(heard)):
         # The arc cosine is off by 1e-8 rad near the axis: nothing for a plan, and faster than `angle_between`.
         heard[item] *= ray_likelihood(math.acos(max(-1.0, min(1.0, cosine_of(item, x, y, z, tables)))), tables)
     normalise(heard)
+    return 1
 
 
 @inlined
@@ -95,26 +121,40 @@ def normalise(belief: Vector) -> None:
 
 
 @inlined
-def answered(heard: Vector, about: int, answer: int, rate: float, belief: Vector, tables: Tables) -> float:
+def answered(
+    heard: Vector, about: int, answer: int, phase: int, kind: int, belief: Vector, tables: Tables
+) -> float:
     """Fill in the belief after an answer to a question about an item (Eq. 6, Table I); return the answer's chance."""
-    if about == NOBODY or answer == SILENT:
+    rate, if_desired = tables.chances[phase, kind, OTHER], tables.chances[phase, kind, DESIRED]
+    if about == NOBODY or (answer == SILENT and rate == if_desired):
         for item in range(len(heard)):
             belief[item] = heard[item]
         return 1.0 if about == NOBODY else 1.0 - rate
-    true, false = tables.p_truth, 1.0 - tables.p_truth
-    own, others = (true, false) if answer == YES else (false, true)
+    own, others = answer_weights(answer, rate, if_desired, tables)
     chance = float(own * heard[about] + others * (1.0 - heard[about]))
     if chance > 0.0:
         for item in range(len(heard)):
             belief[item] = heard[item] * (others / chance)
         belief[about] = heard[about] * own / chance
-    return rate * chance
+    return (1.0 - rate if answer == SILENT else rate) * chance
 
 
 @inlined
-def select_answer(desired: int, about: int, rate: float, speaks: float, means: float, tables: Tables) -> int:
+def answer_weights(answer: int, rate: float, if_desired: float, tables: Tables) -> tuple[float, float]:
+    """Return how likely an answer is for the item asked about and for another, over the rate of such for another."""
+    if answer == SILENT:
+        return (1.0 - if_desired) / (1.0 - rate), 1.0
+    true, false = tables.p_truth, 1.0 - tables.p_truth
+    own, others = (true, false) if answer == YES else (false, true)
+    return own * (if_desired / rate), others
+
+
+@inlined
+def select_answer(
+    desired: int, about: int, phase: int, kind: int, speaks: float, means: float, tables: Tables
+) -> int:
     """Return the answer that two uniform numbers in [0, 1) select by Eq. 6 and Table I."""
-    if about == NOBODY or speaks >= rate:
+    if about == NOBODY or speaks >= tables.chances[phase, kind, DESIRED if about == desired else OTHER]:
         return SILENT
     truthful = means < tables.p_truth
     return YES if truthful == (about == desired) else NO
@@ -126,19 +166,22 @@ def live_step(
     smoothed: float,
     desired: int,
     asked: int,
-    rate: float,
+    phase: int,
+    kind: int,
     work: Vector,
     state: RandomState,
     tables: Tables,
-) -> None:
+) -> int:
     """Replace a belief by that after a step of a person drawn from the model: words, pointing and an answer.
 
-    asked: i_r after the robot's action; work: (n_items,), memory.
+    asked: i_r after the robot's action; phase: before it; kind: of the step; work: (n_items,), memory. Returns the
+    phase that the step leads to.
     """
-    hear(belief, smoothed, desired, work, state, tables)
+    heard = hear(belief, smoothed, desired, phase, kind, work, state, tables)
     speaks, means = uniform(state), uniform(state)
-    answer = select_answer(desired, asked, rate, speaks, means, tables)
-    answered(work, asked, answer, rate, belief, tables)
+    answer = select_answer(desired, asked, phase, kind, speaks, means, tables)
+    answered(work, asked, answer, phase, kind, belief, tables)
+    return int(tables.following[phase, kind, heard.words, heard.seen, answer])
 
 
 @inlined

@@ -71,11 +71,13 @@ class ChaiRule:
         expected = "a share of the largest belief, above 0 and at most 1"
         object.__setattr__(self, "ratio", checks.within(self.ratio, 1e-9, 1.0, "ratio", expected, PlannerError))
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:  # noqa: ARG002
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
         """Choose by rule."""
         return decided(self._actions, problem, belief, asked)
 
-    def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:  # noqa: ARG002
+    def decide_many(
+        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
+    ) -> Integers:  # noqa: ARG002
         """Choose an action for every belief; see `base.decide_many`."""
         return self._actions(beliefs)
 
@@ -108,11 +110,13 @@ class InformationGain:
         value = checks.within(self.worth, 0.0, 1e3, "worth", "a number from 0 to 1000", PlannerError)
         object.__setattr__(self, "worth", value)
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:  # noqa: ARG002
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
         """Choose by rule."""
         return decided(lambda beliefs: self._actions(beliefs, problem), problem, belief, asked)
 
-    def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:  # noqa: ARG002
+    def decide_many(
+        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
+    ) -> Integers:  # noqa: ARG002
         """Choose an action for every belief; see `base.decide_many`."""
         return self._actions(beliefs, problem)
 
@@ -167,11 +171,13 @@ class OneShot:
         value = checks.within(self.confidence, 0.0, 1.0, "confidence", "a probability from 0 to 1", PlannerError)
         object.__setattr__(self, "confidence", value)
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:  # noqa: ARG002
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
         """Wait, or pick the likeliest item."""
         return decided(self._actions, problem, belief, asked)
 
-    def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:  # noqa: ARG002
+    def decide_many(
+        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
+    ) -> Integers:  # noqa: ARG002
         """Choose an action for every belief; see `base.decide_many`."""
         return self._actions(beliefs)
 
@@ -194,7 +200,7 @@ class AlwaysAsk:
     def __post_init__(self) -> None:
         checks.within(self.confidence, 1e-9, 1.0, "confidence", "a probability above 0 and at most 1", PlannerError)
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:  # noqa: ARG002
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
         """Wait, ask about the likeliest item, or pick it, by rule."""
         probabilities = belief.probabilities
         item = int(probabilities.argmax())

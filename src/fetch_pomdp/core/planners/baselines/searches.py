@@ -43,7 +43,7 @@ class NeverAsk:
         whole_number(self.depth, 1, MOST_DEPTH, "depth")
         whole_number(self.width, 1, MOST_WIDTH, "width")
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         """Choose to wait, or the likeliest item."""
         if self.depth == 1:
             return last_action(problem, belief)
@@ -76,7 +76,7 @@ class WilliamsYoung:
         whole_number(self.depth, 1, MOST_DEPTH, "depth")
         whole_number(self.width, 0, MOST_WIDTH, "width")
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         """Choose the best question, or from the second decision on the best pick if that is better."""
         found = ExactAnswers(self.depth, self.width).decide(problem, belief, asked, rng=rng)
         probabilities = belief.probabilities
@@ -114,7 +114,7 @@ class DoshiRoy:
         whole_number(self.depth, 2, MOST_DEPTH, "depth")
         whole_number(self.width, 0, MOST_WIDTH, "width")
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         """Choose the action with the highest value."""
         width = self.width or default_width(problem.n_items)
         search = Search(self.depth, width, problem.n_items, patient=True)

@@ -9,9 +9,10 @@ import numpy as np
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, lean
 from fetch_pomdp.core.planners.fitted.outlook import DistinctWords, look, outlook_size
 from fetch_pomdp.core.planners.fitted.rehearsal import sharpened
-from fetch_pomdp.core.planners.fitted.table import ValueTable, answered_value, classes_of, with_other
-from fetch_pomdp.core.planners.kernels import NOBODY, leading, smoothed_mass
+from fetch_pomdp.core.planners.fitted.table import Step, ValueTable, answered_value, classes_of, with_other
+from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, leading, smoothed_mass
 from fetch_pomdp.core.problem import Tables
+from fetch_pomdp.core.turns import POINTS
 
 MOST_ASKED = 6  # leading items whose questions are valued
 _NEXT_PASS = 0x632BE59BD9B4E019  # far from the steps of the generator, so that passes do not overlap
@@ -22,18 +23,20 @@ Ahead = tuple[float, Vector, float, Vector, int]
 
 @compiled
 def step_ahead(
-    belief: Vector, asked: int, table: ValueTable, distinct: DistinctWords, seed: int, passes: int, tables: Tables
+    belief: Vector, asked: int, phase: int, table: ValueTable, distinct: DistinctWords, seed: int, passes: int,
+    tables: Tables,
 ) -> Ahead:
     """Return what a number of passes finds."""
     asks = candidates(belief)
     totals, squares = np.zeros(len(asks) + 1), np.zeros(len(asks) + 1)
-    add_passes(belief, asked, asks, table, distinct, seed, 0, passes, totals, squares, tables)
-    return chosen(belief, asks, totals, squares, passes, tables)
+    add_passes(belief, asked, phase, asks, table, distinct, seed, 0, passes, totals, squares, tables)
+    found = chosen(belief, asks, totals, squares, passes, tables)
+    return found if tables.begun[phase] else (found[0], found[1], found[2], found[3], NOBODY)
 
 
 @compiled
 def add_passes(
-    belief: Vector, asked: int, asks: Integers, table: ValueTable, distinct: DistinctWords, seed: int,
+    belief: Vector, asked: int, phase: int, asks: Integers, table: ValueTable, distinct: DistinctWords, seed: int,
     begin: int, end: int, totals: Vector, squares: Vector, tables: Tables,
 ) -> None:  # fmt: skip
     """Add the values that passes `begin` to `end` find, and the squares of their errors: questions, then a wait.
@@ -44,7 +47,7 @@ def add_passes(
     values, errors, sampled = np.empty(len(totals)), np.empty(len(totals)), np.empty(len(totals))
     for number in range(begin, end):
         state[0] = np.uint64(seed) + np.uint64(number) * np.uint64(_NEXT_PASS)
-        one_pass(belief, asked, asks, table, distinct, state, heard, values, errors, sampled, tables)
+        one_pass(belief, asked, phase, asks, table, distinct, state, heard, values, errors, sampled, tables)
         for index in range(len(totals)):
             totals[index] += values[index]
             squares[index] += errors[index] * errors[index]
@@ -52,7 +55,7 @@ def add_passes(
 
 @lean
 def one_pass(
-    belief: Vector, asked: int, asks: Integers, table: ValueTable, distinct: DistinctWords, state: RandomState,
+    belief: Vector, asked: int, phase: int, asks: Integers, table: ValueTable, distinct: DistinctWords, state: RandomState,
     heard: Vector, values: Vector, errors: Vector, sampled: Vector, tables: Tables,
 ) -> None:  # fmt: skip
     """Fill in the value that each action leads to, and its standard error over the gestures; `sampled` is memory."""
@@ -61,21 +64,23 @@ def one_pass(
     for index in range(len(values)):
         values[index], errors[index], sampled[index] = 0.0, 0.0, 0.0
     for number in range(size):
-        chance = look(number, belief, smoothed, heard, state, distinct, tables)
+        seen = look(number, belief, smoothed, phase, heard, state, distinct, tables)
         top = leading(heard)
         classes = classes_of(top, table.breaks, tables)
         for index in range(len(values)):
-            about, rate = (asked, tables.p_again) if index == len(asks) else (asks[index], tables.p_l)
+            waits = index == len(asks)
+            about, kind = (asked, WAITED) if waits else (asks[index], ASKED)
             pairs = with_other(classes, about, top, table.breaks, tables)
             own = heard[about] if about != NOBODY else 0.0
-            value = answered_value(table, pairs, top, about, own, rate, tables)
-            values[index] += chance * value
+            value = answered_value(table, pairs, top, about, own, Step(phase, kind, seen.words, seen.seen), tables)
+            values[index] += (seen.wait if waits else seen.ask) * value
             if number >= size - rays:
                 sampled[index] += value / rays
                 errors[index] += value * value / rays
     for index in range(len(values)):
         spread = max(errors[index] - sampled[index] * sampled[index], 0.0) if rays > 1 else 0.0
-        errors[index] = tables.p_g * math.sqrt(spread / max(rays - 1, 1))
+        points = tables.chances[phase, WAITED if index == len(asks) else ASKED, POINTS]
+        errors[index] = points * math.sqrt(spread / max(rays - 1, 1))
 
 
 @compiled
@@ -112,11 +117,11 @@ def chosen(belief: Vector, asks: Integers, totals: Vector, squares: Vector, pass
 
 @compiled
 def step_ahead_many(
-    beliefs: Vector, asked: Integers, power: float, table: ValueTable, distinct: DistinctWords, seeds: RandomState,
+    beliefs: Vector, asked: Integers, phases: Integers, power: float, table: ValueTable, distinct: DistinctWords, seeds: RandomState,
     passes: int, actions: Integers, tables: Tables,
 ) -> None:  # fmt: skip
     """Fill in the best action for that power of every belief."""
     for index in range(len(beliefs)):
         belief = sharpened(beliefs[index], power)
-        found = step_ahead(belief, asked[index], table, distinct, seeds[index], passes, tables)
+        found = step_ahead(belief, asked[index], phases[index], table, distinct, seeds[index], passes, tables)
         actions[index] = found[4]

@@ -31,19 +31,21 @@ from fetch_pomdp.core.planners.fitted.table import (
     OTHER,
     ROWS,
     Classes,
+    Step,
     ValueTable,
     answered_value,
     cell_of,
     class_breaks,
     classes_of,
     closed_form,
+    first_table,
     closeness,
     kind_of,
     pair_class,
     table_action,
     with_other,
 )
-from fetch_pomdp.core.planners.kernels import NOBODY, Leading, leading, live_step, smoothed_mass
+from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, Leading, leading, live_step, smoothed_mass
 from fetch_pomdp.core.problem import Problem, Tables
 
 ROUNDS, SWEEPS = 3, 10
@@ -60,12 +62,13 @@ WIDTH = 2 * COLUMNS + 1  # of the band: second differences reach two rows
 # A belief met: its leading items, where it lies in the table, i_r and the kind of a wait.
 NODE = np.dtype([
     ("first", np.int64), ("second", np.int64), ("asked", np.int64), ("kind", np.int64), ("cls", np.int64),
+    ("phase", np.int64), ("table", np.int64),
     ("b1", np.float64), ("b2", np.float64),
 ])  # fmt: skip
 # A belief of its outlook: leaders, classes of their pairs, and beliefs in i_r and the two leaders before, each with the
 # class of its pair with the first now.
 NEXT = np.dtype([
-    ("chance", np.float32), ("b1", np.float32), ("b2", np.float32), ("b3", np.float32),
+    ("wait", np.float32), ("ask", np.float32), ("words", np.int8), ("seen", np.int8), ("b1", np.float32), ("b2", np.float32), ("b3", np.float32),
     ("i1", np.int32), ("i2", np.int32), ("i3", np.int32), ("c12", np.int8), ("c13", np.int8), ("c23", np.int8),
     ("own", np.float32, (3,)), ("with_own", np.int8, (3,)),
 ])  # fmt: skip
@@ -74,7 +77,8 @@ NEXT = np.dtype([
 def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> ValueTable:
     """Return the value table of a problem, fitted on `count` beliefs a round; same seed, same table."""
     tables = problem.tables
-    start = ValueTable(closed_form(tables), np.empty(0))
+    groups = int(tables.alike.max()) + 1
+    start = ValueTable(np.repeat(closed_form(tables), groups, axis=0), np.empty(0))
     close = np.empty(count // 4)
     breaks = class_breaks(close[: pairs_met(start, close, random_state(seed), tables)])
     table = ValueTable(np.repeat(start.values, len(breaks) + 1, axis=0), breaks)
@@ -82,7 +86,7 @@ def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> 
     nodes, nexts = np.zeros(count, NODE), np.zeros((count, outlook_size(distinct, tables)), NEXT)
     for number in range(ROUNDS):
         meet(table, nodes, nexts, random_state(seed + 1 + number), distinct, tables)
-        lower = np.tile(smooth, (len(breaks) + 1, KINDS, 1, 1))
+        lower = np.tile(smooth, (len(table.values), KINDS, 1, 1))
         normal_matrices(nodes, lower)
         for _ in range(SWEEPS):
             sweep(table, nodes, nexts, lower, tables)
@@ -99,10 +103,10 @@ def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tabl
     for _ in range(len(close)):
         for item in range(count):
             belief[item] = 1.0 / count
-        desired, asked = int(uniform(state) * count), NOBODY
+        desired, asked, phase = int(uniform(state) * count), NOBODY, 0
         least = uniform(state) if uniform(state) < PATIENT else 0.0
         for _step in range(LONGEST):
-            asked = explored_step(belief, asked, desired, least, table, work, state, tables)
+            asked, phase = explored_step(belief, asked, phase, desired, least, table, work, state, tables)
             if asked == count:
                 break
             top = leading(belief)
@@ -118,31 +122,31 @@ def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tabl
 def explored_step(
     belief: Vector,
     asked: int,
+    phase: int,
     desired: int,
     least: float,
     table: ValueTable,
     work: Vector,
     state: RandomState,
     tables: Tables,
-) -> int:
-    """Go on by a step that may explore, and replace the belief; return i_r, or n_items after a pick."""
-    action = explored(belief, asked, least, table, state, tables)
+) -> tuple[int, int]:
+    """Go on by a step that may explore, and replace the belief; return i_r, or n_items after a pick, and the phase."""
+    action = explored(belief, asked, phase, least, table, state, tables)
     if action >= len(belief):
-        return len(belief)
-    rate = tables.p_again if action == NOBODY else tables.p_l
-    following = asked if action == NOBODY else action
-    live_step(belief, smoothed_mass(belief, tables), desired, following, rate, work, state, tables)
-    return following
+        return len(belief), phase
+    kind = WAITED if action == NOBODY else ASKED
+    about = asked if action == NOBODY else action
+    return about, live_step(belief, smoothed_mass(belief, tables), desired, about, phase, kind, work, state, tables)
 
 
 @lean
-def explored(belief: Vector, asked: int, least: float, table: ValueTable, state: RandomState, tables: Tables) -> int:
+def explored(belief: Vector, asked: int, phase: int, least: float, table: ValueTable, state: RandomState, tables: Tables) -> int:
     """Return the table's action, or now and then another that goes on; nothing is picked below the belief `least`.
 
     NOBODY is a wait, an item below n_items a question about it, n_items and more a pick.
     """
     top = leading(belief)
-    action = table_action(belief, asked, top, table, tables)
+    action = table_action(belief, asked, phase, top, table, tables)
     drawn = uniform(state)
     if drawn >= EXPLORES and not (action >= len(belief) and top.b1 < least):
         return action
@@ -163,21 +167,21 @@ def meet(
     while met < len(nodes):
         for item in range(count):
             belief[item] = 1.0 / count
-        desired, asked = int(uniform(state) * count), NOBODY
+        desired, asked, phase = int(uniform(state) * count), NOBODY, 0
         least = uniform(state) if uniform(state) < PATIENT else 0.0
         for _step in range(LONGEST):
             if met == len(nodes):
                 break
-            note(belief, asked, nodes, met, table.breaks, tables)
+            note(belief, asked, phase, nodes, met, table.breaks, tables)
             look_ahead(belief, nodes, nexts, met, table.breaks, work, state, distinct, tables)
             met += 1
-            asked = explored_step(belief, asked, desired, least, table, work, state, tables)
+            asked, phase = explored_step(belief, asked, phase, desired, least, table, work, state, tables)
             if asked == count:
                 break
 
 
 @inlined
-def note(belief: Vector, asked: int, nodes: Any, index: int, breaks: Vector, tables: Tables) -> None:
+def note(belief: Vector, asked: int, phase: int, nodes: Any, index: int, breaks: Vector, tables: Tables) -> None:
     """Fill in a node."""
     top = leading(belief)
     kind = kind_of(asked, top.first, top.second)
@@ -185,7 +189,9 @@ def note(belief: Vector, asked: int, nodes: Any, index: int, breaks: Vector, tab
         kind = UNFITTED
     nodes["first"][index], nodes["second"][index], nodes["asked"][index] = top.first, top.second, asked
     nodes["kind"][index], nodes["b1"][index], nodes["b2"][index] = kind, top.b1, top.b2
-    nodes["cls"][index] = pair_class(top.first, top.second, breaks, tables)
+    cls = pair_class(top.first, top.second, breaks, tables)
+    nodes["cls"][index], nodes["phase"][index] = cls, phase
+    nodes["table"][index] = first_table(phase, breaks, tables) + cls
 
 
 @inlined
@@ -203,7 +209,9 @@ def look_ahead(
     """Fill in a node's outlook."""
     smoothed = smoothed_mass(belief, tables)
     for number in range(nexts.shape[1]):
-        nexts["chance"][index, number] = look(number, belief, smoothed, heard, state, distinct, tables)
+        seen = look(number, belief, smoothed, nodes["phase"][index], heard, state, distinct, tables)
+        nexts["wait"][index, number], nexts["ask"][index, number] = seen.wait, seen.ask
+        nexts["words"][index, number], nexts["seen"][index, number] = seen.words, seen.seen
         top = leading(heard)
         classes = classes_of(top, breaks, tables)
         nexts["b1"][index, number], nexts["b2"][index, number] = top.b1, top.b2
@@ -229,7 +237,7 @@ def marked(nodes: Any, index: int, slot: int) -> int:
 @lean
 def backed_up(index: int, slot: int, table: ValueTable, nodes: Any, nexts: Any, tables: Tables) -> float:
     """Return the expected value after an action of a node, over its outlook and the answers."""
-    about, rate = marked(nodes, index, slot), tables.p_again if slot == 0 else tables.p_l
+    about, kind, phase = marked(nodes, index, slot), WAITED if slot == 0 else ASKED, nodes["phase"][index]
     total = 0.0
     for number in range(nexts.shape[1]):
         top = Leading(
@@ -241,8 +249,9 @@ def backed_up(index: int, slot: int, table: ValueTable, nodes: Any, nexts: Any, 
             nexts["with_own"][index, number, slot],
         )  # fmt: skip
         own = float(nexts["own"][index, number, slot])
-        value = answered_value(table, classes, top, about, own, rate, tables)
-        total += float(nexts["chance"][index, number]) * value
+        step = Step(phase, kind, nexts["words"][index, number], nexts["seen"][index, number])
+        chance = float(nexts["wait"][index, number]) if slot == 0 else float(nexts["ask"][index, number])
+        total += chance * answered_value(table, classes, top, about, own, step, tables)
     return total
 
 
@@ -254,7 +263,7 @@ def normal_matrices(nodes: Any, lower: Vector) -> None:
         for slot in range(3):
             kind = slot_kind(nodes, index, slot)
             if kind != UNFITTED:
-                add_row(lower[nodes["cls"][index], kind], cell.row, cell.column, cell.down, cell.along)
+                add_row(lower[nodes["table"][index], kind], cell.row, cell.column, cell.down, cell.along)
     for cls in range(lower.shape[0]):
         for kind in range(KINDS):
             factor(lower[cls, kind])
@@ -285,7 +294,7 @@ def sweep(table: ValueTable, nodes: Any, nexts: Any, lower: Vector, tables: Tabl
             value = backed_up(index, slot, table, nodes, nexts, tables)
             for one in range(4):
                 entry = (cell.row + one // 2) * COLUMNS + cell.column + one % 2
-                right[nodes["cls"][index], kind, entry] += corner(one, cell.down, cell.along) * value
+                right[nodes["table"][index], kind, entry] += corner(one, cell.down, cell.along) * value
     for cls in range(classes):
         for kind in range(KINDS):
             solve(lower[cls, kind], right[cls, kind])

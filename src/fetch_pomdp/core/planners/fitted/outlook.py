@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, inlined, lean, uniform
-from fetch_pomdp.core.language import draw_word
-from fetch_pomdp.core.planners.kernels import draw_item, hear_word, see, see_nothing
+from fetch_pomdp.core.planners.kernels import ASKED, WAITED, draw_item, hear_word, see, see_nothing, spoken
 from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.turns import POINTS, WORDS
 
 MOST_WORDS = 12
 
@@ -44,12 +44,21 @@ def outlook_size(distinct: DistinctWords, tables: Tables) -> int:
 
 @inlined
 def word_chance(belief: Vector, smoothed: float, word: int, tables: Tables) -> float:
-    """Return the chance of a base word in a step (Eq. 4, 5). smoothed: sum of beliefs times smoothing."""
+    """Return the chance of a base word where one is spoken (Eq. 5). smoothed: sum of beliefs times smoothing."""
     total = smoothed * tables.alpha
     for index in range(tables.word_starts[word], tables.word_starts[word + 1]):
         item = tables.word_items[index]
         total += belief[item] * tables.smoothing[item]
-    return float(tables.p_l * total)
+    return float(total)
+
+
+class Look(NamedTuple):
+    """What an outlook's belief came from: its chance in a step after a wait and in that of a question, words, a ray."""
+
+    wait: float
+    ask: float
+    words: int
+    seen: int
 
 
 @lean
@@ -57,44 +66,44 @@ def look(
     index: int,
     belief: Vector,
     smoothed: float,
+    phase: int,
     heard: Vector,
     state: RandomState,
     distinct: DistinctWords,
     tables: Tables,
-) -> float:
-    """Fill in the belief number `index` of an outlook and return its chance. All numbers in turn sum to 1."""
+) -> Look:
+    """Fill in the belief number `index` of an outlook from a phase. The chances of all numbers in turn sum to 1."""
     count = min(len(distinct.words), MOST_WORDS)
+    wait, ask = tables.chances[phase, WAITED], tables.chances[phase, ASKED]
     if index > count:
         draw = index - count - 1
-        desired = draw_item(belief, (draw + uniform(state)) / distinct.rays)
-        spoken(desired, uniform(state), belief, smoothed, heard, state, tables)
-        see(desired, heard, state, tables)
-        return tables.p_g / distinct.rays
-    still = 1.0 - tables.p_g
+        if wait[WORDS] == ask[WORDS]:
+            desired = draw_item(belief, (draw + uniform(state)) / distinct.rays)
+            words = spoken(desired, uniform(state) < wait[WORDS], belief, smoothed, heard, state, tables)
+            wait_share, ask_share = 1.0 / distinct.rays, 1.0 / distinct.rays
+        else:  # every other ray comes with a word, so that one draw serves both kinds of step
+            half, words = distinct.rays // 2, draw % 2
+            desired = draw_item(belief, (draw // 2 + uniform(state)) / half)
+            spoken(desired, words == 1, belief, smoothed, heard, state, tables)
+            wait_share = (wait[WORDS] if words else 1.0 - wait[WORDS]) / half
+            ask_share = (ask[WORDS] if words else 1.0 - ask[WORDS]) / half
+        seen = see(desired, heard, state, tables)
+        return Look(wait[POINTS] * wait_share, ask[POINTS] * ask_share, words, seen)
+    words, wait_chance, ask_chance, share = 1, wait[WORDS], ask[WORDS], 1.0
     if index == 0:
         for item in range(len(belief)):
             heard[item] = belief[item]
-        chance = 1.0 - tables.p_l
+        words, wait_chance, ask_chance = 0, 1.0 - wait[WORDS], 1.0 - ask[WORDS]
     elif count == len(distinct.words):
         word = distinct.words[index - 1]
         hear_word(belief, smoothed, word, heard, tables)
-        chance = distinct.sizes[index - 1] * word_chance(belief, smoothed, word, tables)
+        share = distinct.sizes[index - 1]
+        chance = word_chance(belief, smoothed, word, tables)
+        wait_chance, ask_chance = wait_chance * chance, ask_chance * chance
     else:
         desired = draw_item(belief, (index - 1 + uniform(state)) / count)
-        spoken(desired, 0.0, belief, smoothed, heard, state, tables)
-        chance = tables.p_l / count
+        spoken(desired, True, belief, smoothed, heard, state, tables)
+        wait_chance, ask_chance = wait_chance / count, ask_chance / count
     see_nothing(heard, tables)
-    return float(still * chance)
-
-
-@inlined
-def spoken(
-    desired: int, speaks: float, belief: Vector, smoothed: float, heard: Vector, state: RandomState, tables: Tables
-) -> None:
-    """Fill in the belief after a word drawn for the desired item, or silence; speaks: uniform, 0 for a word surely."""
-    word = draw_word(desired, speaks, uniform(state), tables)
-    if word < 0:
-        for item in range(len(belief)):
-            heard[item] = belief[item]
-    else:
-        hear_word(belief, smoothed, word, heard, tables)
+    wait_still, ask_still = 1.0 - wait[POINTS], 1.0 - ask[POINTS]
+    return Look(wait_still * (share * wait_chance), ask_still * (share * ask_chance), words, 0)

@@ -87,32 +87,32 @@ class FittedValue:
         """Solve the problem and load what is compiled now, so that the first decision is as fast as the others."""
         self.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         """Choose the action with the highest value."""
         started = time.perf_counter()
         if problem.n_items > MOST_FITTED:
-            return ExactAnswers().decide(problem, belief, asked, rng=rng)
+            return ExactAnswers().decide(problem, belief, asked, rng=rng, phase=phase)
         about = checked_asked(belief.probabilities, asked, problem)
         known = solution(problem, self)
         probabilities = sharpened(belief.probabilities, known.policy.power)
         seed, passes = int(rng.random() * 2.0**53), None
         if self.budget_ms is None:
-            found = step_ahead(probabilities, about, known.table, known.distinct, seed, self.passes, known.policy.plan)
+            found = step_ahead(probabilities, about, phase, known.table, known.distinct, seed, self.passes, known.policy.plan)
         else:
             ends = started + CAUTION * self.budget_ms / 1e3
-            found, passes = self._refined(known, probabilities, about, seed, ends)
+            found, passes = self._refined(known, probabilities, about, phase, seed, ends)
         wait, point, wait_error, errors, action = found
         pick = pick_values(probabilities, problem)
         return Decision(action_of(action, problem), wait, point, pick, wait_error, errors, passes=passes)
 
-    def _refined(self, known: Solution, probabilities: Vector, about: int, seed: int, ends: float) -> tuple[Ahead, int]:
+    def _refined(self, known: Solution, probabilities: Vector, about: int, phase: int, seed: int, ends: float) -> tuple[Ahead, int]:
         """Return what passes find until the best action is clear or the time is up, and how many they were."""
         plan, asks, likeliest = known.policy.plan, candidates(probabilities), float(probabilities.max())
         totals, squares = np.zeros(len(asks) + 1), np.zeros(len(asks) + 1)
         done, more = 0, self.passes
         while True:
             before = time.perf_counter()
-            add_passes(probabilities, about, asks, known.table, known.distinct, seed, done, done + more, totals,
+            add_passes(probabilities, about, phase, asks, known.table, known.distinct, seed, done, done + more, totals,
                        squares, plan)  # fmt: skip
             done += more
             found = chosen(probabilities, asks, totals, squares, done, plan)
@@ -121,17 +121,20 @@ class FittedValue:
             if now + 2.0 * (now - before) > ends or done + more > MOST_PASSES or not is_close(found, likeliest, plan):
                 return found, done
 
-    def decide_many(self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator) -> Integers:
+    def decide_many(
+        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
+    ) -> Integers:
         """Choose an action for every belief, on all cores and with no budget; see `base.decide_many`."""
         if problem.n_items > MOST_FITTED:
-            return one_by_one(self, problem, beliefs, asked, rng)
+            return one_by_one(self, problem, beliefs, asked, rng, phases)
         actions = np.empty(len(beliefs), dtype=np.int64)
+        stands = np.zeros(len(beliefs), dtype=np.int64) if phases is None else phases
         known = solution(problem, self)
         seeds = (rng.random(len(beliefs)) * 2.0**53).astype(np.uint64)
 
         def share(begin: int, end: int) -> None:
             part = slice(begin, end)
-            step_ahead_many(beliefs[part], asked[part], known.policy.power, known.table, known.distinct, seeds[part],
+            step_ahead_many(beliefs[part], asked[part], stands[part], known.policy.power, known.table, known.distinct, seeds[part],
                             self.passes, actions[part], known.policy.plan)  # fmt: skip
 
         on_all_cores(share, len(beliefs))
@@ -156,7 +159,7 @@ def solution(problem: Problem, planner: FittedValue) -> Solution:
     known, key = _solutions.setdefault(problem, {}), (planner.beliefs, planner.seed, planner.rays)
     if key not in known:
         policy = _policy(problem.scene, planner.beliefs, planner.seed)
-        known[key] = Solution(policy, distinct_words(problem, planner.rays))
+        known[key] = Solution(policy, distinct_words(problem, planner.rays * (2 if problem.model.turns else 1)))
     return known[key]
 
 

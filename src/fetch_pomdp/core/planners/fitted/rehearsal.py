@@ -14,7 +14,7 @@ import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, inlined
 from fetch_pomdp.core.planners.fitted.table import ValueTable, table_action
-from fetch_pomdp.core.planners.kernels import NOBODY, leading, live_step, smoothed_mass
+from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, leading, live_step, smoothed_mass
 from fetch_pomdp.core.problem import Tables
 
 LONGEST = 30  # steps of an interaction, after which the robot has to pick
@@ -68,7 +68,7 @@ def _play(
     count, noted = len(tables.smoothing), 0
     belief, read, work = np.empty(count), np.empty(count), np.empty(count)
     for k in range(len(people)):
-        state, wanted, asked = people[k : k + 1], k % count, NOBODY
+        state, wanted, asked, phase = people[k : k + 1], k % count, NOBODY, 0
         belief[:] = 1.0 / count
         while True:
             if (k + steps[k]) % NOTED_EVERY == 0 and noted < len(beliefs):
@@ -76,15 +76,15 @@ def _play(
                 noted += 1
             sharpen(belief, power, read)
             top = leading(read)
-            action = table_action(read, asked, top, table, plan)
+            action = table_action(read, asked, phase, top, table, plan)
             if action >= count or steps[k] == LONGEST:
                 earned[k] += tables.pick_correct if top.first == wanted else tables.pick_wrong
                 break
             steps[k] += 1
             earned[k] += tables.wait if action == NOBODY else tables.point
-            rate = tables.p_again if action == NOBODY else tables.p_l
+            kind = WAITED if action == NOBODY else ASKED
             asked = asked if action == NOBODY else action
-            live_step(belief, smoothed_mass(belief, tables), wanted, asked, rate, work, state, tables)
+            phase = live_step(belief, smoothed_mass(belief, tables), wanted, asked, phase, kind, work, state, tables)
     return noted
 
 

@@ -33,7 +33,7 @@ def selected(problem: Problem, beliefs: int, seed: int) -> Policy:
     picks at once where listening pays; the second thinks too much of it. Both read beliefs sharpened to the power that
     people show to be right, or to a part of it (LEARNT): a plan does not foresee that later beliefs are sharpened too.
     """
-    if problem.tables.exact or problem.tables.p_g == 0.0:
+    if problem.tables.exact or problem.tables.p_g == 0.0 or problem.model.turns:
         return Policy(planned(problem, beliefs, seed), 1.0, problem.tables)
     plans = [problem] if problem.n_items > LARGEST_EXACT else [problem, problem.with_exact_rays()]
     tried = [
@@ -44,7 +44,7 @@ def selected(problem: Problem, beliefs: int, seed: int) -> Policy:
 
 def planned(problem: Problem, beliefs: int, seed: int) -> ValueTable:
     """Return the value table of a problem."""
-    return fitted(problem, distinct_words(problem, FIT_RAYS), beliefs, seed)
+    return fitted(problem, distinct_words(problem, FIT_RAYS * (2 if problem.model.turns else 1)), beliefs, seed)
 
 
 def _rehearsed(table: ValueTable, plan: Problem, problem: Problem, seed: int) -> list[tuple[Policy, float]]:

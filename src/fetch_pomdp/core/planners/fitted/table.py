@@ -26,9 +26,11 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Vector, compiled, inlined, lean
-from fetch_pomdp.core.planners.kernels import NO, NOBODY, YES, Leading
+from fetch_pomdp.core.planners.kernels import NOBODY, Leading, answer_weights
 from fetch_pomdp.core.planners.search.leaf import leaf_of, leaf_value
 from fetch_pomdp.core.problem import Tables
+from fetch_pomdp.core.turns import DESIRED, NO, SILENT, YES
+from fetch_pomdp.core.turns import OTHER as OTHER_ITEM
 
 MOST_CLASSES = 3
 _LLOYD_ROUNDS = 20
@@ -39,7 +41,11 @@ UNASKED, FIRST, SECOND, OTHER, ASK_FIRST, ASK_SECOND = range(KINDS)
 
 
 class ValueTable(NamedTuple):
-    """A fitted value: `values` (classes, ROWS, COLUMNS, KINDS) in points, and the breaks between classes."""
+    """A fitted value: `values` (groups * classes, ROWS, COLUMNS, KINDS) in points, and the breaks between classes.
+
+    Groups are those of phases (`turns.Phases.alike`): a table of a group and a class is that of index group * classes +
+    class.
+    """
 
     values: Vector
     breaks: Vector
@@ -53,6 +59,15 @@ class Cell(NamedTuple):
     column: int
     down: float
     along: float
+
+
+class Step(NamedTuple):
+    """A step up to its answer: the phase in which it began, its kind, and what came in it."""
+
+    phase: int
+    kind: int
+    words: int
+    seen: int
 
 
 class Classes(NamedTuple):
@@ -185,38 +200,50 @@ def with_other(classes: Classes, about: int, top: Leading, breaks: Vector, table
     return Classes(classes.first_second, classes.first_third, classes.second_third, other)
 
 
+@inlined
+def first_table(phase: int, breaks: Vector, tables: Tables) -> int:
+    """Return the index of the table of a phase and the first class of pairs."""
+    return int(tables.alike[phase]) * (len(breaks) + 1)
+
+
 @lean
 def answered_value(
-    table: ValueTable, classes: Classes, top: Leading, about: int, own: float, rate: float, tables: Tables
+    table: ValueTable, classes: Classes, top: Leading, about: int, own: float, step: Step, tables: Tables
 ) -> float:
     """Return the expected value of the nodes after an answer, or silence, about an item (Eq. 6, Table I).
 
     own: belief in the item asked about. An answer scales it against all others alike, so the leaders decide.
     """
-    values, ends, cls = table.values, table.ends, classes.first_second
+    values, ends, breaks = table.values, table.ends, table.breaks
+    following = tables.following[step.phase, step.kind, step.words, step.seen]
+    base, cls = first_table(following[SILENT], breaks, tables), classes.first_second
     if about == NOBODY:
-        return node_value(values, ends, cls, top.b1, top.b2, UNASKED, 0.0, tables)
+        return node_value(values, ends, base + cls, top.b1, top.b2, UNASKED, 0.0, tables)
     o1, o2, with_own, without = top.b1, top.b2, classes.other_first, cls
     if about == top.first:
         o1, o2, with_own, without = top.b2, top.b3, cls, classes.second_third
     elif about == top.second:
         o2, with_own, without = top.b3, cls, classes.first_third
-    share = own / top.b2 if top.b2 > 0.0 else 0.0
-    kind = kind_of(about, top.first, top.second)
-    total = (1.0 - rate) * node_value(values, ends, cls, top.b1, top.b2, kind, share, tables)
-    for answer in (YES, NO):
-        for_own = tables.p_truth if answer == YES else 1.0 - tables.p_truth
-        chance = for_own * own + (1.0 - for_own) * (1.0 - own)
+    rate, if_desired = tables.chances[step.phase, step.kind, OTHER_ITEM], tables.chances[step.phase, step.kind, DESIRED]
+    total, first = 0.0, SILENT
+    if rate == if_desired:  # then silence tells nothing
+        share = own / top.b2 if top.b2 > 0.0 else 0.0
+        kind = kind_of(about, top.first, top.second)
+        total, first = (1.0 - rate) * node_value(values, ends, base + cls, top.b1, top.b2, kind, share, tables), YES
+    for answer in range(first, NO + 1):
+        for_own, for_other = answer_weights(answer, rate, if_desired, tables)
+        chance = for_own * own + for_other * (1.0 - own)
         if chance <= 0.0:
             continue
-        b, q1, q2 = for_own * own / chance, (1.0 - for_own) * o1 / chance, (1.0 - for_own) * o2 / chance
+        base = first_table(following[answer], breaks, tables)
+        b, q1, q2 = for_own * own / chance, for_other * o1 / chance, for_other * o2 / chance
         if b >= q1:
-            value = node_value(values, ends, with_own, b, q1, FIRST, 0.0, tables)
+            value = node_value(values, ends, base + with_own, b, q1, FIRST, 0.0, tables)
         elif b >= q2:
-            value = node_value(values, ends, with_own, q1, b, SECOND, 0.0, tables)
+            value = node_value(values, ends, base + with_own, q1, b, SECOND, 0.0, tables)
         else:
-            value = node_value(values, ends, without, q1, q2, OTHER, b / q2, tables)
-        total += rate * chance * value
+            value = node_value(values, ends, base + without, q1, q2, OTHER, b / q2, tables)
+        total += (1.0 - rate if answer == SILENT else rate) * chance * value
     return total
 
 
@@ -241,9 +268,12 @@ def closed_form(tables: Tables) -> Vector:
 
 
 @lean
-def table_action(belief: Vector, asked: int, top: Leading, table: ValueTable, tables: Tables) -> int:
+def table_action(belief: Vector, asked: int, phase: int, top: Leading, table: ValueTable, tables: Tables) -> int:
     """Return the table's best action: NOBODY for a wait, an item for a question, n_items and more for a pick."""
     cls, cell = pair_class(top.first, top.second, table.breaks, tables), cell_of(top.b1, top.b2)
+    cls += first_table(phase, table.breaks, tables)
+    if tables.begun[phase] == 0:
+        return NOBODY
     share = belief[asked] / top.b2 if asked != NOBODY and top.b2 > 0.0 else 0.0
     best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * top.b1
     action = len(belief) + top.first

@@ -49,7 +49,7 @@ class ExactAnswers:
         if self.leaf not in get_args(LeafName):
             raise PlannerError(f"found {shown(self.leaf)}, expected 'pick' or 'question'", field="leaf")
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         """Choose the action with the highest value."""
         patient = self.leaf == "question"
         if self.depth == 1:

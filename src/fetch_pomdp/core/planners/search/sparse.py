@@ -46,7 +46,7 @@ class SparseSampling:
         whole_number(self.depth, 1, MOST_DEPTH, "depth")
         whole_number(self.width, 1, MOST_WIDTH, "width")
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
+    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
         """Choose the action with the highest sampled value."""
         if self.depth == 1:
             return last_action(problem, belief)
