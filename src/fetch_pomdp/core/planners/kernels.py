@@ -121,24 +121,31 @@ def select_answer(desired: int, about: int, rate: float, speaks: float, means: f
 
 
 @inlined
-def live_step(
-    belief: Vector,
-    smoothed: float,
-    desired: int,
-    asked: int,
-    rate: float,
-    work: Vector,
-    state: RandomState,
-    tables: Tables,
-) -> None:
-    """Replace a belief by that after a step of a person drawn from the model: words, pointing and an answer.
+def turn_of(asked: int, action: int, tables: Tables) -> tuple[int, float]:
+    """Return i_r after a wait (NOBODY) or a question about an item, and the chance of an answer about it (Eq. 6)."""
+    return (asked, tables.p_again) if action == NOBODY else (action, tables.p_l)
 
-    asked: i_r after the robot's action; work: (n_items,), memory.
+
+@inlined
+def live_step(
+    belief: Vector, asked: int, action: int, desired: int, heard: Vector, state: RandomState, tables: Tables
+) -> int:
+    """Replace a belief by that after an action and a step of a person drawn from the model: words, pointing, an answer.
+
+    action: NOBODY for a wait, or the item of a question; heard: (n_items,), memory. Returns i_r after the action.
     """
-    hear(belief, smoothed, desired, work, state, tables)
+    about, rate = turn_of(asked, action, tables)
+    hear(belief, smoothed_mass(belief, tables), desired, heard, state, tables)
     speaks, means = uniform(state), uniform(state)
-    answer = select_answer(desired, asked, rate, speaks, means, tables)
-    answered(work, asked, answer, rate, belief, tables)
+    answer = select_answer(desired, about, rate, speaks, means, tables)
+    answered(heard, about, answer, rate, belief, tables)
+    return about
+
+
+@inlined
+def pick_value(belief: float, tables: Tables) -> float:
+    """Return the expected reward of picking an item of a belief."""
+    return tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief
 
 
 @inlined

@@ -122,7 +122,7 @@ class InformationGain:
         gains = answer_information(beliefs, problem)
         asks = self.worth * earned * gains.max(axis=1) > tables.wait - tables.point
         actions = question_or_pick(beliefs, gains.argmax(axis=1), asks)
-        waits = ~asks & (earned * beliefs.max(axis=1) + tables.pick_wrong < tables.wait)
+        waits = ~asks & (pick_values(beliefs, problem).max(axis=1) < tables.wait)
         return np.where(waits, NOBODY, actions)
 
 

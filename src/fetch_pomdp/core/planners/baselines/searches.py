@@ -12,21 +12,20 @@ from numpy.random import Generator
 
 from fetch_pomdp.core.action import Action, Point, Wait
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.planners.base import (
     MOST_DEPTH,
     MOST_WIDTH,
     Decision,
     best_action,
+    checked_asked,
     is_uniform,
     unvalued,
     whole_number,
 )
-from fetch_pomdp.core.planners.kernels import NOBODY
-from fetch_pomdp.core.planners.search.exact import ExactAnswers, default_width, plan_exact
 from fetch_pomdp.core.planners.search.leaf import last_action
-from fetch_pomdp.core.planners.search.tree import RootValues, Search, searched
-from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, default_width, searched
+from fetch_pomdp.core.planners.search.tree import Search
+from fetch_pomdp.core.problem import Problem
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +46,8 @@ class NeverAsk:
         """Choose to wait, or the likeliest item."""
         if self.depth == 1:
             return last_action(problem, belief)
-        search = Search(self.depth, self.width, questions=0, patient=False)
-        return searched(plan_exact, problem, belief, asked, search, rng)
+        search = Search(self.depth, self.width, questions=0, exact=True, leaf_asks=False)
+        return searched(problem, belief, asked, search, rng=rng)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,10 +116,7 @@ class DoshiRoy:
     def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator) -> Decision:
         """Choose the action with the highest value."""
         width = self.width or default_width(problem.n_items)
-        search = Search(self.depth, width, problem.n_items, patient=True)
-        return searched(plan_forgetful, problem, belief, asked, search, rng)
-
-
-def plan_forgetful(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> RootValues:  # noqa: ARG001
-    """Search like `plan_exact` where nothing was asked before, and no answer comes after a wait."""
-    return plan_exact(belief, NOBODY, search, seed, tables._replace(p_again=0.0))
+        search = Search(self.depth, width, problem.n_items, exact=True, leaf_asks=True)
+        checked_asked(belief.probabilities, asked, problem)
+        # Nothing was asked before, and no answer comes after a wait.
+        return searched(problem, belief, None, search, rng=rng, tables=problem.tables._replace(p_again=0.0))

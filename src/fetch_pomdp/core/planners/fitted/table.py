@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Vector, compiled, inlined, lean
-from fetch_pomdp.core.planners.kernels import NO, NOBODY, YES, Leading
+from fetch_pomdp.core.planners.kernels import NO, NOBODY, YES, Leading, pick_value
 from fetch_pomdp.core.planners.search.leaf import leaf_of, leaf_value
 from fetch_pomdp.core.problem import Tables
 
@@ -46,7 +46,7 @@ class ValueTable(NamedTuple):
     ends: float = 0.0  # share of the interactions that a step ends with a forced pick
 
 
-class Cell(NamedTuple):
+class Place(NamedTuple):
     """A place in the table, by its lower corner and how far it is on to the next."""
 
     row: int
@@ -120,19 +120,19 @@ def class_breaks(seen: Vector) -> Vector:
 
 
 @inlined
-def cell_of(b1: float, b2: float) -> Cell:
+def place_of(b1: float, b2: float) -> Place:
     """Return where the table has two leading beliefs."""
     x = b1 * (ROWS - 1)
     most = min(b1, 1.0 - b1)
     y = min(b2 / most, 1.0) * (COLUMNS - 1) if most > 1e-12 else 0.0
     row, column = min(int(x), ROWS - 2), min(int(y), COLUMNS - 2)
-    return Cell(row, column, x - row, y - column)
+    return Place(row, column, x - row, y - column)
 
 
 @inlined
-def at(values: Vector, cls: int, kind: int, cell: Cell) -> float:
+def at(values: Vector, cls: int, kind: int, place: Place) -> float:
     """Return the table's value at a place, bilinear between its entries."""
-    row, column, down, along = cell
+    row, column, down, along = place
     upper = (1.0 - along) * values[cls, row, column, kind] + along * values[cls, row, column + 1, kind]
     lower = (1.0 - along) * values[cls, row + 1, column, kind] + along * values[cls, row + 1, column + 1, kind]
     return float((1.0 - down) * upper + down * lower)
@@ -149,23 +149,23 @@ def kind_of(asked: int, first: int, second: int) -> int:
 
 
 @inlined
-def waited(values: Vector, cls: int, kind: int, share: float, cell: Cell) -> float:
+def waited(values: Vector, cls: int, kind: int, share: float, place: Place) -> float:
     """Return the value of having waited; share: belief in i_r over b2 where i_r is neither leader."""
     if kind != OTHER:
-        return at(values, cls, kind, cell)
-    return (1.0 - share) * at(values, cls, OTHER, cell) + share * at(values, cls, SECOND, cell)
+        return at(values, cls, kind, place)
+    return (1.0 - share) * at(values, cls, OTHER, place) + share * at(values, cls, SECOND, place)
 
 
 @inlined
-def node_value(
-    values: Vector, ends: float, cls: int, b1: float, b2: float, kind: int, share: float, tables: Tables
-) -> float:
+def node_value(table: ValueTable, cls: int, b1: float, b2: float, kind: int, share: float, tables: Tables) -> float:
     """Return the value of a node, V."""
-    cell = cell_of(b1, b2)
-    pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * b1
-    best = max(pick, tables.wait + waited(values, cls, kind, share, cell))
-    best = max(best, tables.point + max(at(values, cls, ASK_FIRST, cell), at(values, cls, ASK_SECOND, cell)))
-    return (1.0 - ends) * best + ends * pick
+    place = place_of(b1, b2)
+    pick = pick_value(b1, tables)
+    best = max(pick, tables.wait + waited(table.values, cls, kind, share, place))
+    best = max(
+        best, tables.point + max(at(table.values, cls, ASK_FIRST, place), at(table.values, cls, ASK_SECOND, place))
+    )
+    return (1.0 - table.ends) * best + table.ends * pick
 
 
 @inlined
@@ -193,9 +193,9 @@ def answered_value(
 
     own: belief in the item asked about. An answer scales it against all others alike, so the leaders decide.
     """
-    values, ends, cls = table.values, table.ends, classes.first_second
+    cls = classes.first_second
     if about == NOBODY:
-        return node_value(values, ends, cls, top.b1, top.b2, UNASKED, 0.0, tables)
+        return node_value(table, cls, top.b1, top.b2, UNASKED, 0.0, tables)
     o1, o2, with_own, without = top.b1, top.b2, classes.other_first, cls
     if about == top.first:
         o1, o2, with_own, without = top.b2, top.b3, cls, classes.second_third
@@ -203,7 +203,7 @@ def answered_value(
         o2, with_own, without = top.b3, cls, classes.first_third
     share = own / top.b2 if top.b2 > 0.0 else 0.0
     kind = kind_of(about, top.first, top.second)
-    total = (1.0 - rate) * node_value(values, ends, cls, top.b1, top.b2, kind, share, tables)
+    total = (1.0 - rate) * node_value(table, cls, top.b1, top.b2, kind, share, tables)
     for answer in (YES, NO):
         for_own = tables.p_truth if answer == YES else 1.0 - tables.p_truth
         chance = for_own * own + (1.0 - for_own) * (1.0 - own)
@@ -211,11 +211,11 @@ def answered_value(
             continue
         b, q1, q2 = for_own * own / chance, (1.0 - for_own) * o1 / chance, (1.0 - for_own) * o2 / chance
         if b >= q1:
-            value = node_value(values, ends, with_own, b, q1, FIRST, 0.0, tables)
+            value = node_value(table, with_own, b, q1, FIRST, 0.0, tables)
         elif b >= q2:
-            value = node_value(values, ends, with_own, q1, b, SECOND, 0.0, tables)
+            value = node_value(table, with_own, q1, b, SECOND, 0.0, tables)
         else:
-            value = node_value(values, ends, without, q1, q2, OTHER, b / q2, tables)
+            value = node_value(table, without, q1, q2, OTHER, b / q2, tables)
         total += rate * chance * value
     return total
 
@@ -232,7 +232,7 @@ def closed_form(tables: Tables) -> Vector:
             value = leaf_value(1.0, b1, b2, -1.0, leaf)
             held = leaf_value(1.0, b1, b2, b1 + b2, leaf)
             settled = leaf.gain * leaf.p_truth * (b1 + b2) + leaf.wrong
-            later = max(settled + leaf.patience, leaf.gain * b1 + leaf.wrong)
+            later = max(settled + leaf.until_answer, leaf.gain * b1 + leaf.wrong)
             for kind in range(KINDS):
                 result[0, row, column, kind] = held if kind in (FIRST, SECOND) else value
             for kind in (ASK_FIRST, ASK_SECOND):
@@ -243,15 +243,15 @@ def closed_form(tables: Tables) -> Vector:
 @lean
 def table_action(belief: Vector, asked: int, top: Leading, table: ValueTable, tables: Tables) -> int:
     """Return the table's best action: NOBODY for a wait, an item for a question, n_items and more for a pick."""
-    cls, cell = pair_class(top.first, top.second, table.breaks, tables), cell_of(top.b1, top.b2)
+    cls, place = pair_class(top.first, top.second, table.breaks, tables), place_of(top.b1, top.b2)
     share = belief[asked] / top.b2 if asked != NOBODY and top.b2 > 0.0 else 0.0
-    best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * top.b1
+    best = pick_value(top.b1, tables)
     action = len(belief) + top.first
-    wait = tables.wait + waited(table.values, cls, kind_of(asked, top.first, top.second), share, cell)
+    wait = tables.wait + waited(table.values, cls, kind_of(asked, top.first, top.second), share, place)
     if wait > best:
         best, action = wait, NOBODY
     for kind, about in ((ASK_FIRST, top.first), (ASK_SECOND, top.second)):
-        question = tables.point + at(table.values, cls, kind, cell)
+        question = tables.point + at(table.values, cls, kind, place)
         if question > best:
             best, action = question, about
     return action

@@ -31,22 +31,22 @@ from fetch_pomdp.core.problem import Problem, Tables
 class Leaf(NamedTuple):
     """Prices of a leaf, all that its value depends on besides the belief."""
 
-    patient: bool  # leaf `question` instead of `pick`
+    asks: bool  # leaf `question` instead of `pick`
     gain: float  # D, what a right pick earns over a wrong one
     wrong: float
     wait: float
     point: float
     p_l: float
     p_truth: float
-    patience: float  # expected reward of the waits until an answer comes
+    until_answer: float  # expected reward of the waits until an answer comes
 
 
 @inlined
-def leaf_of(patient: bool, tables: Tables) -> Leaf:
+def leaf_of(asks: bool, tables: Tables) -> Leaf:
     """Return the prices of a leaf under a problem."""
-    patience = tables.wait / tables.p_again if tables.p_again > 0.0 else -1e300
+    until_answer = tables.wait / tables.p_again if tables.p_again > 0.0 else -1e300
     gain = tables.pick_correct - tables.pick_wrong
-    return Leaf(patient, gain, tables.pick_wrong, tables.wait, tables.point, tables.p_l, tables.p_truth, patience)
+    return Leaf(asks, gain, tables.pick_wrong, tables.wait, tables.point, tables.p_l, tables.p_truth, until_answer)
 
 
 @inlined
@@ -57,12 +57,12 @@ def leaf_value(mass: float, b1: float, b2: float, held: float, leaf: Leaf) -> fl
     """
     pick = leaf.gain * b1 + leaf.wrong * mass
     best = max(pick, leaf.wait * mass)
-    if leaf.patient:
+    if leaf.asks:
         settled = leaf.gain * leaf.p_truth * (b1 + b2) + leaf.wrong * mass
-        later = max(settled + leaf.patience * mass, pick)
+        later = max(settled + leaf.until_answer * mass, pick)
         best = max(best, leaf.point * mass + leaf.p_l * settled + (1.0 - leaf.p_l) * later)
         if held >= 0.0:
-            best = max(best, leaf.gain * leaf.p_truth * held + (leaf.wrong + leaf.patience) * mass)
+            best = max(best, leaf.gain * leaf.p_truth * held + (leaf.wrong + leaf.until_answer) * mass)
     return best
 
 
@@ -104,7 +104,7 @@ def last_action(problem: Problem, belief: Belief) -> Decision:
     return Decision(best_action(wait, point, pick), wait, point, pick)
 
 
-def patient_last_action(problem: Problem, belief: Belief, asked: int | None) -> Decision:
+def last_question(problem: Problem, belief: Belief, asked: int | None) -> Decision:
     """Return the decision of leaf `question` itself: ask and wait the answer out, wait out the one asked for, or
     pick.
     """
@@ -113,7 +113,7 @@ def patient_last_action(problem: Problem, belief: Belief, asked: int | None) -> 
     pick = pick_values(probabilities, problem)
     pairs = probabilities + np.where(np.arange(problem.n_items) == top.first, top.b2, top.b1)
     settled = leaf.gain * leaf.p_truth * pairs + leaf.wrong
-    later = np.maximum(settled + leaf.patience, pick.max())
+    later = np.maximum(settled + leaf.until_answer, pick.max())
     point = leaf.point + leaf.p_l * settled + (1.0 - leaf.p_l) * later
-    wait = leaf.wait if asked is None else max(leaf.wait, float(settled[asked]) + leaf.patience)
+    wait = leaf.wait if asked is None else max(leaf.wait, float(settled[asked]) + leaf.until_answer)
     return Decision(best_action(wait, point, pick), wait, point, pick)

@@ -1,4 +1,4 @@
-"""The tree of the compiled searches, and from what is known at its root to a decision.
+"""The tree of the compiled searches: what they keep of a node, and its value.
 
 A node at level k has the belief `work.beliefs[k]`; a search adds the values of its samples up in `work.totals[k]` (a
 question about item i at i, a wait at the end).
@@ -8,22 +8,14 @@ A search walks its tree depth first with a cursor a level, `work.cursor`: compil
 
 from __future__ import annotations
 
-import logging
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.random import Generator
 
-from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, lean, uniform
-from fetch_pomdp.core.planners.base import Decision, best_action, checked_asked, unvalued
-from fetch_pomdp.core.planners.kernels import largest
-from fetch_pomdp.core.problem import Problem, Tables
-
-_log = logging.getLogger(__name__)
-_compiled: set[Kernel] = set()  # searches that this process has told its user about
+from fetch_pomdp.core.planners.kernels import largest, pick_value, smoothed_mass
+from fetch_pomdp.core.problem import Tables
 
 # Values of a wait, of questions and of picks; standard errors of the first two.
 RootValues = tuple[float, Vector, Vector, float, Vector]
@@ -35,10 +27,9 @@ class Search(NamedTuple):
     depth: int  # actions, 2 or more
     width: int  # sampled observations at a node
     questions: int  # items that may be asked about: all, or 0
-    patient: bool  # leaf `question` instead of `pick`
+    exact: bool  # sums answers exactly, instead of sampling them with the rest
+    leaf_asks: bool  # leaf `question` instead of `pick`
 
-
-Kernel = Callable[[Vector, int, Search, int, Tables], RootValues]
 
 # Where a search stands in one node.
 CURSOR = np.dtype(
@@ -93,16 +84,13 @@ def enter(level: int, asked: int, work: Work, tables: Tables) -> None:
     cursor["asked"][level] = asked
     cursor["branch"][level] = 0
     cursor["offset"][level] = uniform(work.state)
-    smoothed = 0.0
-    for item in range(work.beliefs.shape[1]):
-        smoothed += work.beliefs[level, item] * tables.smoothing[item]
-    cursor["smoothed"][level] = smoothed
+    cursor["smoothed"][level] = smoothed_mass(work.beliefs[level], tables)
 
 
 @lean
 def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
     """Return the value of a node whose totals are complete: the best of picks, a wait and questions."""
-    best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(work.beliefs[level])
+    best = pick_value(largest(work.beliefs[level]), tables)
     best = max(best, tables.wait + float(work.totals[level, -1]) / search.width)
     for item in range(search.questions):
         best = max(best, tables.point + float(work.totals[level, item]) / search.width)
@@ -119,22 +107,5 @@ def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
         means[action] = mean + (tables.point if action < count else tables.wait)
         errors[action] = math.sqrt(spread / max(search.width - 1, 1))
     for item in range(count):
-        belief[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
+        belief[item] = pick_value(belief[item], tables)
     return float(means[count]), means[:count], belief, float(errors[count]), errors[:count]
-
-
-def searched(
-    kernel: Kernel, problem: Problem, belief: Belief, asked: int | None, search: Search, rng: Generator
-) -> Decision:
-    """Return the decision of a search of two actions or more; questions that it may not ask are worth NaN."""
-    if kernel not in _compiled:
-        _compiled.add(kernel)
-        _log.info("loading the compiled planner; the first time after installation it is compiled, for some seconds")
-    probabilities = belief.probabilities
-    about = checked_asked(probabilities, asked, problem)
-    seed = int(rng.random() * 2.0**53)
-    wait, point, pick, wait_error, point_errors = kernel(probabilities, about, search, seed, problem.tables)
-    if search.questions == 0:
-        point = unvalued(problem)
-        return Decision(best_action(wait, point, pick), wait, point, pick, wait_error)
-    return Decision(best_action(wait, point, pick), wait, point, pick, wait_error, point_errors)
