@@ -112,7 +112,9 @@ class PlainSparse:
     depth: int = 2
     width: int = 10
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:  # noqa: ARG002
         """Choose the action with the highest sampled value."""
         weights = belief.probabilities
         weights = weights / weights.sum()

@@ -15,13 +15,10 @@ import numpy as np
 
 from fetch_pomdp import Agent, Belief, ExactAnswers, FittedValue, NeverAsk, Planner, Problem, SparseSampling
 from fetch_pomdp.core.compiled import Vector, compiled
-from fetch_pomdp.core.planners.fitted.ahead import step_ahead
-from fetch_pomdp.core.planners.fitted.outlook import DistinctWords
+from fetch_pomdp.core.planners.fitted.ahead import Lookahead, step_ahead
 from fetch_pomdp.core.planners.fitted.planner import MOST_FITTED, solution
-from fetch_pomdp.core.planners.fitted.table import ValueTable
 from fetch_pomdp.core.planners.kernels import NOBODY
-from fetch_pomdp.core.planners.search.exact import default_width, plan_exact
-from fetch_pomdp.core.planners.search.sparse import plan_sparse
+from fetch_pomdp.core.planners.search.planner import default_width, plan
 from fetch_pomdp.core.planners.search.tree import Search
 from fetch_pomdp.core.problem import Tables
 from planning import DEFAULT, Record
@@ -36,31 +33,20 @@ Loop = Callable[[int, Vector, Search, int, Tables], float]
 
 
 @compiled
-def exact_loop(times: int, belief: Vector, search: Search, seed: int, tables: Tables) -> float:
+def search_loop(times: int, belief: Vector, search: Search, seed: int, tables: Tables) -> float:
     """Decide `times` times from compiled code, so that Python's calls stay out of the measurement."""
     total = 0.0
     for call in range(times):
-        total += plan_exact(belief, NOBODY, search, seed + call, tables)[0]
+        total += plan(belief, NOBODY, search, seed + call, tables)[0]
     return total
 
 
 @compiled
-def sparse_loop(times: int, belief: Vector, search: Search, seed: int, tables: Tables) -> float:
-    """Decide `times` times from compiled code, like `exact_loop`."""
+def fitted_loop(times: int, belief: Vector, ahead: Lookahead, seed: int) -> float:
+    """Decide `times` times from compiled code, like `search_loop`."""
     total = 0.0
     for call in range(times):
-        total += plan_sparse(belief, NOBODY, search, seed + call, tables)[0]
-    return total
-
-
-@compiled
-def fitted_loop(
-    times: int, belief: Vector, table: ValueTable, distinct: DistinctWords, seed: int, tables: Tables
-) -> float:
-    """Decide `times` times from compiled code, like `exact_loop`."""
-    total = 0.0
-    for call in range(times):
-        total += step_ahead(belief, NOBODY, table, distinct, seed + call, 1, tables)[0]
+        total += step_ahead(belief, NOBODY, ahead.table, ahead.distinct, seed + call, 1, ahead.tables)[0]
     return total
 
 
@@ -81,7 +67,7 @@ class Case:
     def expected(self) -> float:
         """Return roughly how long a decision takes (s): whether to measure it at all."""
         asks = self.search.questions > 0
-        sparse = self.loop is sparse_loop
+        sparse = not self.search.exact
         last = self.width * self.n_items * (2e-9 * self.n_items if sparse else 5e-9 if asks else 2e-9) + 1e-6
         branches = self.width * ((1 if sparse else 3) * self.n_items + 1 if asks else 1)
         return float(last * branches ** (self.depth - 2))
@@ -105,27 +91,24 @@ def cases(n_items: int, limit: float) -> Iterator[Case]:
     """Yield what is worth measuring at a size: all that takes less than `limit` s a decision."""
     for depth in DEPTHS:
         for width in WIDTHS:
-            asks, silent = Search(depth, width, n_items, False), Search(depth, width, 0, False)
-            question, pick = ExactAnswers(depth, width), ExactAnswers(depth, width, "pick")
-            for case in (
-                Case(
-                    "ExactAnswers, leaf question",
-                    n_items,
-                    depth,
-                    width,
-                    question,
-                    exact_loop,
-                    asks._replace(patient=True),
-                ),
-                Case("ExactAnswers, leaf pick", n_items, depth, width, pick, exact_loop, asks),
-                Case("SparseSampling", n_items, depth, width, SparseSampling(depth, width), sparse_loop, asks),
-                Case("NeverAsk", n_items, depth, width, NeverAsk(depth, width), exact_loop, silent),
+            asks = Search(depth, width, n_items, exact=True, leaf_asks=False)
+            silent, question, sampled = (
+                asks._replace(questions=0),
+                asks._replace(leaf_asks=True),
+                asks._replace(exact=False),
+            )
+            for name, planner, search in (
+                ("ExactAnswers, leaf question", ExactAnswers(depth, width), question),
+                ("ExactAnswers, leaf pick", ExactAnswers(depth, width, "pick"), asks),
+                ("SparseSampling", SparseSampling(depth, width), sampled),
+                ("NeverAsk", NeverAsk(depth, width), silent),
             ):
+                case = Case(name, n_items, depth, width, planner, search_loop, search)
                 if case.expected() < limit:
                     yield case
     width = default_width(n_items)
-    search = Search(2, width, n_items, True)
-    yield Case("ExactAnswers, default", n_items, 2, width, ExactAnswers(), exact_loop, search)
+    search = Search(2, width, n_items, exact=True, leaf_asks=True)
+    yield Case("ExactAnswers, default", n_items, 2, width, ExactAnswers(), search_loop, search)
 
 
 def fitted_case(problem: Problem) -> Case:
@@ -134,9 +117,17 @@ def fitted_case(problem: Problem) -> Case:
     known = solution(problem, planner)
 
     def loop(times: int, belief: Vector, search: Search, seed: int, tables: Tables) -> float:  # noqa: ARG001
-        return fitted_loop(times, belief, known.table, known.distinct, seed, known.policy.plan)
+        return fitted_loop(times, belief, known.ahead, seed)
 
-    return Case(DEFAULT, problem.n_items, 2, planner.rays, planner, loop, Search(2, planner.rays, 0, False))
+    return Case(
+        DEFAULT,
+        problem.n_items,
+        2,
+        planner.rays,
+        planner,
+        loop,
+        Search(2, planner.rays, 0, exact=True, leaf_asks=False),
+    )
 
 
 def timed(call: Callable[[int], object], once: float) -> float:

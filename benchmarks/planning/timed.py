@@ -17,7 +17,9 @@ class Timed:
     planner: Planner
     times: list[float] = field(default_factory=list)
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         """Pass the planner's decision on."""
         start = time.process_time()
         decision = self.planner.decide(problem, belief, asked, rng=rng)

@@ -266,7 +266,9 @@ class Uct:
         """Return how many simulations there were, in all decisions."""
         return self._counts[0]
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         """Choose the action with the highest value when time is up."""
         simulator, rollout = self._parts
         simulator.cursor = int(rng.integers(DRAWN))

@@ -17,8 +17,7 @@ from fetch_pomdp.core.planners.base import Decision, Planner, decide_many
 from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import NeverAsk
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold, tuned
 from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem

@@ -16,7 +16,9 @@ class Script:
     def __init__(self, *actions: Action) -> None:
         self.actions, self.asked = list(actions), list[int | None]()
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         del rng
         self.asked.append(asked)
         action = self.actions[len(self.asked) - 1] if len(self.asked) <= len(self.actions) else Pick(0)

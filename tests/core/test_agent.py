@@ -18,7 +18,7 @@ from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import SparseSampling
 from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import (

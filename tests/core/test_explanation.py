@@ -20,8 +20,7 @@ from fetch_pomdp.core.observation import Parts
 from fetch_pomdp.core.planners.base import Decision, Planner, pick_values
 from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import NeverAsk
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.scene import Scene
 from tests.tables import table
 

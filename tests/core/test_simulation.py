@@ -16,8 +16,7 @@ from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import NeverAsk
 from fetch_pomdp.core.planners.catalogue import PLANNERS
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
@@ -34,7 +33,9 @@ class Scripted:
     def __init__(self, rule: Callable[[int], Action]) -> None:
         self.rule, self.asked, self.beliefs = rule, list[int | None](), list[Belief]()
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         del rng
         action = self.rule(len(self.asked))
         self.asked.append(asked)

@@ -20,7 +20,7 @@ from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.observation import Observation, sample
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import SparseSampling
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import EventError
 from fetch_pomdp.files.checking import checked, differences, relived, schema

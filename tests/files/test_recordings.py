@@ -24,8 +24,7 @@ from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.planners.baselines.searches import NeverAsk
 from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.ports import Outcome, Word
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.errors import BeliefError, EventError, InputError

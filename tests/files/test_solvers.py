@@ -10,7 +10,7 @@ import pytest
 
 from fetch_pomdp.core.discrete import Discrete, all_actions
 from fetch_pomdp.core.generative import State, step
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
+from fetch_pomdp.core.planners.search.planner import ExactAnswers
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import MOST_STEPS, simulate
 from fetch_pomdp.files.export import export

@@ -13,7 +13,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import NeverAsk
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
+from fetch_pomdp.core.planners.search.planner import ExactAnswers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.study.clock import Clock

@@ -34,7 +34,9 @@ class Scripted:
 
     actions: itertools.chain[Action]
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:  # noqa: ARG002
         return Decision(next(self.actions), np.nan, unvalued(problem), belief.probabilities)
 
 

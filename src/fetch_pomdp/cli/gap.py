@@ -58,10 +58,12 @@ class Stopwatch:
     planner: Planner
     seconds: list[float]
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         """Decide like the other."""
         begin = time.perf_counter()
-        decision = self.planner.decide(problem, belief, asked, rng=rng)
+        decision = self.planner.decide(problem, belief, asked, rng=rng, phase=phase)
         self.seconds.append(time.perf_counter() - begin)
         return decision
 

@@ -28,6 +28,7 @@ from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner, who
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
+from fetch_pomdp.core.turns import constant_chances
 from fetch_pomdp.core.words import tokenize
 from fetch_pomdp.errors import ActionError, ObservationError
 
@@ -104,9 +105,10 @@ class Agent:
     def update(self, observation: Observation) -> Utterance:
         """Take in an observation; return how its words were understood."""
         utterance = language.split(observation.words, self.problem)
-        # Under constant chances all that depends on the action cancels, and a question's chances are never 0.
-        acted = self._acted if self.problem.model.turns else Point(0)
-        chances = self.problem.step_chances(acted, self.phase)
+        model = self.problem.model
+        chances = constant_chances(model.p_l, model.p_g)  # the action before scales all items alike
+        if model.turns:
+            chances = self.problem.step_chances(self._acted, self.phase)
         parts = observations.log_likelihoods(observation, self.asked, self.problem, chances)
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
         self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase)

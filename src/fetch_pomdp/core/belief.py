@@ -7,11 +7,10 @@ import numpy.typing as npt
 
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core import observation as observations
-from fetch_pomdp.core.action import Point
 from fetch_pomdp.core.compiled import Vector, compiled
 from fetch_pomdp.core.observation import Observation, Parts
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.turns import StepChances
+from fetch_pomdp.core.turns import StepChances, constant_chances
 from fetch_pomdp.errors import BeliefError
 
 
@@ -66,13 +65,16 @@ class Belief:
         """Return the belief after an observation (Bayes' rule with Eq. 1-7). asked: index of i_r, or None.
 
         chances: of the step where people are live (`Problem.step_chances`). parts: the observation's log-likelihoods,
-        from whoever has computed them already.
+        from whoever has them already.
 
         What scales all items alike cancels; so under constant chances the action before does not matter here, and
-        responses are read by Table I. Raises BeliefError if the observation is impossible for every item that the belief allows.
+        responses are read by Table I. Raises BeliefError if the observation is impossible for every item that the
+        belief allows.
         """
         if parts is None:
-            parts = observations.log_likelihoods(observation, asked, problem, chances or problem.step_chances(Point(0)))
+            parts = observations.log_likelihoods(
+                observation, asked, problem, chances or constant_chances(problem.model.p_l, problem.model.p_g)
+            )
         log, possible = _posterior(self._log, parts.together())
         if not possible:
             about = "no question" if asked is None else f"a question about {problem.scene.items[asked].id!r}"

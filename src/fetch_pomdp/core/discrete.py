@@ -20,9 +20,9 @@ from fetch_pomdp.core import gesture, language
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.compiled import Vector, compiled
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.kernels import NO, SILENT, YES
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.problem import Problem, constant_only
 from fetch_pomdp.core.rays import turned
+from fetch_pomdp.core.turns import NO, SILENT, YES
 from fetch_pomdp.core.words import POSITIVE
 from fetch_pomdp.errors import ModelError, ObservationError, SceneError
 
@@ -57,6 +57,7 @@ class Discrete:
         if not isinstance(rings, int) or isinstance(rings, bool) or not 1 <= rings <= MOST_RINGS:
             found = f"found {shown(rings)}, expected a whole number from 1 to {MOST_RINGS}"
             raise ModelError(found, field="rings")
+        constant_only(self.problem, "the enumerated model")
         if self.problem.n_items > MOST_ITEMS:
             raise SceneError(f"found {self.problem.n_items} items, expected at most {MOST_ITEMS}", field="items")
         by_owners = self.problem.words_by_owners().items()
@@ -75,7 +76,7 @@ class Discrete:
 
         asked: index of i_r after the action, or None.
         """
-        rate, truth = language.answer_rate(action, self.problem), self.problem.model.p_truth
+        rate, truth = self.problem.step_chances(action).other, self.problem.model.p_truth
         yes = np.full(self.problem.n_items, 0.5 if asked is None else 1.0 - truth)
         if asked is not None:
             yes[asked] = truth

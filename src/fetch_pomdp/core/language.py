@@ -77,9 +77,7 @@ def draw_word(desired: int, which: float, tables: Tables) -> int:
     return min(int((slot - own) / tables.alpha), len(tables.word_starts) - 2)
 
 
-def response_log_likelihood(
-    response: Words, asked: int | None, problem: Problem, chances: StepChances
-) -> Vector:
+def response_log_likelihood(response: Words, asked: int | None, problem: Problem, chances: StepChances) -> Vector:
     """Log probability of the response words given each item as the desired one, log p(l_r | i_d, i_r) (Eq. 6).
 
     Choice: Table I gives the probability of the class of a response word; within it each word is equally likely, so
@@ -103,9 +101,7 @@ def response_log_likelihood(
     return result
 
 
-def sample_response(
-    desired: int, asked: int | None, problem: Problem, chances: StepChances, rng: Generator
-) -> Words:
+def sample_response(desired: int, asked: int | None, problem: Problem, chances: StepChances, rng: Generator) -> Words:
     """Draw the response of one step: one word, or none (Table I, Section III-D-1)."""
     if rng.random() >= (chances.desired if asked == desired else chances.other):
         return ()

@@ -38,9 +38,7 @@ class Parts(NamedTuple):
         return result
 
 
-def log_likelihoods(
-    observation: Observation, asked: int | None, problem: Problem, chances: StepChances
-) -> Parts:
+def log_likelihoods(observation: Observation, asked: int | None, problem: Problem, chances: StepChances) -> Parts:
     """Log p(o | i_d, i_r) for each item as the desired one (Eq. 1-3), part by part: given the state they are
     independent.
 

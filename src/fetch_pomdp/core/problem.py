@@ -15,7 +15,7 @@ from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.rays import LARGEST_EXACT, miss_chances, unit_directions
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.turns import SILENT, StepChances, constant_phases, phases_of
+from fetch_pomdp.core.turns import StepChances, constant_phases, phases_of
 from fetch_pomdp.errors import ModelError
 
 
@@ -34,7 +34,8 @@ class Tables(NamedTuple):
     word_items: Integers
     alpha: float
     p_l: float
-    p_again: float  # p_l times p_answer_again: chance of a response in a step after a wait
+    p_answer: float  # chance of a response in the step of a question, whatever is desired: p_l in the paper
+    p_again: float  # chance of one in a step after a wait: p_l times p_answer_again in the paper
     p_g: float
     sigma: float  # rad
     threshold: float  # rad
@@ -48,6 +49,14 @@ class Tables(NamedTuple):
     following: Integers  # (phases, 2, 2, 2, 3)
     alike: Integers  # (phases,)
     begun: Integers  # (phases,)
+    open: Integers  # (phases,)
+
+
+def constant_only(problem: Problem, what: str) -> None:
+    """Refuse live people for what knows the paper's constant chances alone. Raises ModelError."""
+    if problem.model.turns is not None:
+        found = f"found live people, expected none: {what} knows the paper's constant chances of speaking and pointing"
+        raise ModelError(found, field="turns")
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
@@ -120,8 +129,13 @@ class Problem:
         owners = np.repeat(np.arange(len(items)), sizes)
         directions = unit_directions(np.array(self.scene.head), self.positions)
         exact = model.gesture_likelihood == "exact"
-        p_again = model.p_l * model.p_answer_again
-        phases = phases_of(model.turns) if model.turns else constant_phases(model.p_l, p_again, model.p_g)
+        p_answer, p_again = model.p_l, model.p_l * model.p_answer_again
+        if model.turns:
+            phases = phases_of(model.turns)
+            p_answer, _, p_again, _ = (sum(pair) / 2 for pair in zip(
+                model.turns.answers_desired, model.turns.answers_other, strict=True))  # fmt: skip
+        else:
+            phases = constant_phases(p_answer, p_again, model.p_g)
         missed = miss_chances(directions, model.sigma, model.gesture_threshold) if exact else np.zeros(len(items))
         return Tables(
             directions=directions,
@@ -133,6 +147,7 @@ class Problem:
             word_items=owners[np.argsort(item_words, kind="stable")].astype(np.int64),
             alpha=model.alpha,
             p_l=model.p_l,
+            p_answer=p_answer,
             p_again=p_again,
             p_g=model.p_g,
             sigma=model.sigma,
@@ -147,4 +162,5 @@ class Problem:
             following=phases.following,
             alike=phases.alike,
             begun=phases.begun,
+            open=phases.open,
         )

@@ -7,7 +7,9 @@ an interaction is the same whatever goes on beside it.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.random import Generator
@@ -17,12 +19,14 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, on_all_cores
 from fetch_pomdp.core.generative import State, reward, step
 from fetch_pomdp.core.planners.base import Planner, decide_many, whole_number
-from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, live_step, smoothed_mass
+from fetch_pomdp.core.planners.kernels import NOBODY, live_step, turn_of
 from fetch_pomdp.core.problem import Problem, Tables
 
 MOST_STEPS = 30  # waits and questions, after which the robot picks whatever it holds likeliest
 MOST_SIDE_BY_SIDE = 16_384  # episodes
 MOST_BELIEFS = 8_000_000  # numbers in the beliefs of episodes side by side
+
+Decide = Callable[[Integers], Integers]
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +72,8 @@ def run_episode(problem: Problem, planner: Planner, desired: int, person: Genera
     return Episode(total + reward(state, last, problem), last.item == desired, MOST_STEPS, questions)
 
 
-@dataclass(slots=True, eq=False)
-class Interactions:
-    """k interactions: what each person wants, what each robot believes, and what it earned so far."""
+class Interactions(NamedTuple):
+    """k interactions: what each person wants, what each robot believes, and what it earned so far; changed in place."""
 
     desired: Integers  # (k,)
     people: RandomState  # (k,), states of `compiled.uniform`
@@ -95,21 +98,26 @@ class Interactions:
         """Do actions, (m,) as in `planners.base`, in the active interactions, (m,); people then speak and point."""
 
         def share(begin: int, end: int) -> None:
-            _advance(
-                active[begin:end], actions[begin:end], self.desired, self.people, self.beliefs, self.asked, self.phases,
-                self.earned, self.correct, self.steps, self.questions, self.over, problem.tables,
-            )  # fmt: skip
+            _advance(active[begin:end], actions[begin:end], self, problem.tables)
 
         on_all_cores(share, len(active))
 
+    def play_out(self, decide: Decide, problem: Problem) -> None:
+        """Play on to the end of all; `decide` returns the actions, (m,), of the interactions that go on, (m,)."""
+        active = np.arange(len(self.desired))
+        for _ in range(MOST_STEPS):
+            self.advance(active, decide(active), problem)
+            active = active[self.over[active] == 0]
+            if not len(active):
+                return
+        self.advance(active, problem.n_items + self.beliefs[active].argmax(axis=1), problem)
+
 
 @compiled
-def _advance(
-    active: Integers, actions: Integers, desired: Integers, people: RandomState, beliefs: Vector, asked: Integers, phases: Integers,
-    earned: Vector, correct: Integers, steps: Integers, questions: Integers, over: Integers, tables: Tables,
-) -> None:  # fmt: skip
+def _advance(active: Integers, actions: Integers, interactions: Interactions, tables: Tables) -> None:
+    desired, people, beliefs, asked, phases, earned, correct, steps, questions, over = interactions
     count = len(tables.smoothing)
-    work = np.empty(count)
+    heard = np.empty(count)
     for index in range(len(active)):
         k, action = active[index], actions[index]
         if action >= count:
@@ -118,15 +126,11 @@ def _advance(
             over[k] = 1
             continue
         steps[k] += 1
-        kind = WAITED
+        questions[k] += 0 if action == NOBODY else 1
         earned[k] += tables.wait if action == NOBODY else tables.point
-        if action != NOBODY:
-            questions[k] += 1
-            asked[k], kind = action, ASKED
-        smoothed = smoothed_mass(beliefs[k], tables)
-        phases[k] = live_step(
-            beliefs[k], smoothed, desired[k], asked[k], phases[k], kind, work, people[k : k + 1], tables
-        )
+        turn = turn_of(asked[k], phases[k], action)
+        asked[k] = turn.about
+        phases[k] = live_step(beliefs[k], turn, desired[k], heard, people[k : k + 1], tables)
 
 
 def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Summary:
@@ -169,14 +173,11 @@ def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Su
 
 
 def played_out(problem: Problem, planner: Planner, interactions: Interactions, robot: Generator) -> Interactions:
-    """Play interactions to their ends, and return them."""
-    active = np.arange(len(interactions.desired))
-    for _ in range(MOST_STEPS):
-        actions = decide_many(planner, problem, interactions.beliefs[active], interactions.asked[active], rng=robot,
-                              phases=interactions.phases[active])  # fmt: skip
-        interactions.advance(active, actions, problem)
-        active = active[interactions.over[active] == 0]
-        if not len(active):
-            return interactions
-    interactions.advance(active, problem.n_items + interactions.beliefs[active].argmax(axis=1), problem)
+    """Let a planner play interactions to their ends, and return them."""
+
+    def decide(active: Integers) -> Integers:
+        asked, phases = interactions.asked[active], interactions.phases[active]
+        return decide_many(planner, problem, interactions.beliefs[active], asked, rng=robot, phases=phases)
+
+    interactions.play_out(decide, problem)
     return interactions

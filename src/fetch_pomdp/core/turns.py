@@ -7,9 +7,9 @@ next step depend on it (mixed observability: Ong et al. 2010).
 
 A phase is a talk times QUESTIONS plus a question, two numbers of which each says one thing:
 
-- talk: UNBEGUN; POINTED, since the step before; DUE, pointed for longer, so that words are due; HEARD + k, k quiet steps
-  after the words of somebody who has pointed, where k = patience stands for all that is longer; and as many for somebody
-  who has not pointed.
+- talk: UNBEGUN; POINTED, since the step before; DUE, pointed for longer, so that words are due; HEARD + k, k quiet
+  steps after the words of somebody who has pointed, where k = patience stands for all that is longer; and as many for
+  somebody who has not pointed.
 - question: NO_QUESTION; DENIED, answered by "no" in the step before; OPEN for one step; OPEN_LONG.
 
 The paper's model has the phase 0 alone.
@@ -116,12 +116,19 @@ class Phases(NamedTuple):
     following: Integers  # (phases, 2 kinds of step, 2 words heard, 2 pointing seen, 3 answers), the next phase
     alike: Integers  # (phases,), number of the group of phases that a fitted value takes for one
     begun: Integers  # (phases,), 0 where nobody has spoken or pointed yet, so that there is nothing to decide
+    open: Integers  # (phases,), 1 where an answer may still come
+
+
+def constant_chances(p_l: float, p_g: float) -> StepChances:
+    """Return the paper's chances of a step, in which whether somebody answers tells nothing."""
+    return StepChances(p_l, p_g, p_l, p_l)
 
 
 def constant_phases(p_l: float, p_again: float, p_g: float) -> Phases:
     """Return the paper's one phase. p_again: chance of an answer in a step after a wait."""
     chances = np.array([[[p_l, p_g, p_again, p_again], [p_l, p_g, p_l, p_l]]])
-    return Phases(chances, np.zeros((1, 2, 2, 2, 3), dtype=np.int64), np.zeros(1, dtype=np.int64), np.ones(1, dtype=np.int64))
+    none, one = np.zeros(1, dtype=np.int64), np.ones(1, dtype=np.int64)
+    return Phases(chances, np.zeros((1, 2, 2, 2, 3), dtype=np.int64), none, one, one)
 
 
 def phases_of(turns: Turns) -> Phases:
@@ -139,9 +146,11 @@ def phases_of(turns: Turns) -> Phases:
             after = _talk_after(talk, turns.question if asked else 1, words, seen, turns.patience)
             following[phase, asked, words, seen, answer] = after * QUESTIONS + _question_after(question, asked, answer)
     groups = {name: number for number, name in enumerate(GROUPS)}
-    alike = [groups[_name(phase // QUESTIONS, turns.patience)] * QUESTIONS + phase % QUESTIONS for phase in range(count)]
-    begun = np.arange(count) // QUESTIONS != UNBEGUN
-    return Phases(chances, following, np.array(alike), begun.astype(np.int64))
+    alike = [
+        groups[_name(phase // QUESTIONS, turns.patience)] * QUESTIONS + phase % QUESTIONS for phase in range(count)
+    ]
+    begun, still_open = np.arange(count) // QUESTIONS != UNBEGUN, np.arange(count) % QUESTIONS >= OPEN
+    return Phases(chances, following, np.array(alike), begun.astype(np.int64), still_open.astype(np.int64))
 
 
 def places_of(phase: int, asked: int, patience: int) -> tuple[tuple[str, int], ...]:

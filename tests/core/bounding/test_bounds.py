@@ -14,7 +14,7 @@ import fetch_pomdp
 from fetch_pomdp.core import compiled
 from fetch_pomdp.core.bounding.bounds import Bound, clairvoyant_returns, closed_form_bound, upper_bound
 from fetch_pomdp.core.bounding.oracle import CELLS, ceiling, oracle_of
-from fetch_pomdp.core.bounding.relaxation import LAST, drawn_scenario
+from fetch_pomdp.core.bounding.relaxation import drawn_scenario
 from fetch_pomdp.core.model import Rewards
 from fetch_pomdp.core.planners.base import Planner
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
@@ -29,11 +29,10 @@ from fetch_pomdp.core.planners.fitted.table import (
     UNASKED,
     ValueTable,
 )
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.simulation import simulate
+from fetch_pomdp.core.simulation import MOST_STEPS, simulate
 from fetch_pomdp.errors import PlannerError
 from tests.oracles.clairvoyant import Clairvoyant, Foresight, share_of, twin_values
 from tests.oracles.value import after, picks
@@ -110,7 +109,7 @@ def test_the_clairvoyant_finds_the_best_of_all_sequences(vocabularies: list[list
     def most(belief: Sequence[float], asked: int | None) -> float:
         return ceiling(np.array(belief), -1 if asked is None else asked, oracle, problem.tables)
 
-    plain = Clairvoyant(world, control, most, tau, LAST)
+    plain = Clairvoyant(world, control, most, tau, MOST_STEPS)
     seeds = np.random.default_rng((7, 2)).integers(2**53, size=25, dtype=np.uint64)
     expected = []
     for seed in seeds:

@@ -19,8 +19,7 @@ from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk, ChaiRule, Infor
 from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, NeverAsk, WilliamsYoung
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene

@@ -24,7 +24,6 @@ from fetch_pomdp.core.action import Action, Pick
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.discrete import Discrete, all_actions
-from fetch_pomdp.core.language import answer_rate
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import ActionError, ModelError, ObservationError
@@ -121,8 +120,8 @@ class ObservationModel(pomdp_py.ObservationModel):  # type: ignore[misc,name-def
         """Return log p(o | i_d, i_r) for each item as the desired one, (n_items,). asked: i_r after the action."""
         if not isinstance(observation.seen, Observation):
             raise ObservationError(f"found {shown(observation.seen)}, expected a full observation", field="observation")
-        rate = answer_rate(action.action, self._problem)
-        return observations.log_likelihoods(observation.seen, asked, self._problem, rate).together()
+        chances = self._problem.step_chances(action.action)
+        return observations.log_likelihoods(observation.seen, asked, self._problem, chances).together()
 
     def probability(self, observation: FetchObservation, next_state: FetchState, action: FetchAction) -> float:
         """Return p(o | i_d, i_r); after a pick only None is seen. Raises ObservationError for the other kind."""
@@ -135,8 +134,8 @@ class ObservationModel(pomdp_py.ObservationModel):  # type: ignore[misc,name-def
         return FetchObservation(None if next_state.over else self._drawn(next_state, action))
 
     def _drawn(self, state: FetchState, action: FetchAction) -> Observation:
-        rate = answer_rate(action.action, self._problem)
-        return observations.sample(state.desired, state.asked, self._problem, rate, self._rng)
+        chances = self._problem.step_chances(action.action)
+        return observations.sample(state.desired, state.asked, self._problem, chances, self._rng)
 
 
 class ClassModel(ObservationModel):

@@ -52,11 +52,12 @@ from fetch_pomdp.core.bounding.oracle import ceiling, oracle_of
 from fetch_pomdp.core.bounding.relaxation import Relaxation, control, relaxed
 from fetch_pomdp.core.compiled import Integers, Vector, on_all_cores
 from fetch_pomdp.core.planners.base import whole_number
+from fetch_pomdp.core.planners.fitted.ahead import Lookahead
 from fetch_pomdp.core.planners.fitted.outlook import distinct_words
 from fetch_pomdp.core.planners.fitted.planner import FittedValue, solution
 from fetch_pomdp.core.planners.fitted.table import ValueTable
 from fetch_pomdp.core.planners.kernels import NOBODY
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.problem import Problem, constant_only
 
 Kind = Literal["relaxation", "oracle"]
 
@@ -64,7 +65,7 @@ MOST_ITEMS = 60  # beyond which a clairvoyant's questions are too many to try
 MOST_SCENARIOS = 10_000_000
 RAYS = 64  # of an outlook
 TAUS = (-0.5, -0.2, 0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4)  # points, tried in turn
-PILOTS, PATIENCE = 32, 5  # scenarios; how many times the nodes wanted are expanded before one is left
+PILOTS, GIVEN_UP = 32, 5  # scenarios; how many times the nodes wanted are expanded before one is left
 MOST_WORK = 150_000  # beliefs looked at for a scenario, on average
 
 _PILOT_STREAM, _STREAM = 3, 2  # of the seed; people of `simulate` have another
@@ -87,8 +88,10 @@ def upper_bound(problem: Problem, scenarios: int = 1_000, seed: int = 0) -> Boun
     """Return an upper bound on the return of every policy on simulated people; same seed, same bound.
 
     The argument is this module's. Tables of more than MOST_ITEMS items, and those where the closed form is the lesser,
-    get kind "oracle". Raises PlannerError for a number of scenarios, or a seed, that is none.
+    get kind "oracle". Raises PlannerError for a number of scenarios, or a seed, that is none, and
+    ModelError for live people (`turns`), for whom it does not hold.
     """
+    constant_only(problem, "the upper bound")
     whole_number(scenarios, 2, MOST_SCENARIOS, "scenarios")
     whole_number(seed, 0, 2**63 - 1, "seed")
     told = closed_form_bound(problem)
@@ -122,14 +125,15 @@ def chosen_tau(problem: Problem, table: ValueTable, seed: int) -> float:
     work = (len(distinct.words) + RAYS) * (problem.n_items + 1)
     most = max(MOST_WORK // work, 1)
     for tau in TAUS:
-        nodes = _searched(problem, _relaxation(problem, table, tau, PATIENCE * most), PILOTS, (seed, _PILOT_STREAM))[1]
+        nodes = _searched(problem, _relaxation(problem, table, tau, GIVEN_UP * most), PILOTS, (seed, _PILOT_STREAM))[1]
         if nodes.mean() <= most:
             return tau
     return TAUS[-1]
 
 
 def _relaxation(problem: Problem, table: ValueTable, tau: float, most_nodes: int) -> Relaxation:
-    return Relaxation(table, oracle_of(problem), distinct_words(problem, RAYS), _alike(problem), tau, most_nodes)
+    ahead = Lookahead(table, distinct_words(problem, RAYS), problem.tables)
+    return Relaxation(ahead, oracle_of(problem), _alike(problem), tau, most_nodes)
 
 
 def _searched(problem: Problem, fixed: Relaxation, scenarios: int, streams: tuple[int, int]) -> tuple[Vector, Integers]:
@@ -138,11 +142,11 @@ def _searched(problem: Problem, fixed: Relaxation, scenarios: int, streams: tupl
     results, nodes = np.empty(scenarios), np.empty(scenarios, dtype=np.int64)
 
     def share(begin: int, end: int) -> None:
-        relaxed(seeds[begin:end], fixed, results[begin:end], nodes[begin:end], problem.tables)
+        relaxed(seeds[begin:end], fixed, results[begin:end], nodes[begin:end])
 
     on_all_cores(share, scenarios)
     flat = np.full(problem.n_items, 1.0 / problem.n_items)
-    return results + control(flat, NOBODY, fixed.table, problem.tables), nodes
+    return results + control(flat, NOBODY, fixed.ahead.table, problem.tables), nodes
 
 
 def _alike(problem: Problem) -> Integers:

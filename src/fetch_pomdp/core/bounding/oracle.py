@@ -39,7 +39,7 @@ import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, Vector, compiled, inlined, lean
 from fetch_pomdp.core.planners.fitted.table import closeness
-from fetch_pomdp.core.planners.kernels import NOBODY
+from fetch_pomdp.core.planners.kernels import NOBODY, pick_value
 from fetch_pomdp.core.problem import Problem, Tables
 
 CELLS = 240  # of the grid over x
@@ -134,7 +134,7 @@ def solve_pair(chances: Vector, tables: Tables) -> Vector:
         change = 0.0
         for point in range(CELLS + 1):
             x = point / CELLS
-            pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * max(x, 1.0 - x)
+            pick = pick_value(max(x, 1.0 - x), tables)
             question = tables.point + heard_value(x, 1, tables.p_l, chances, values, tables)
             for held in range(2):
                 wait = tables.wait + heard_value(x, held, held * tables.p_again, chances, values, tables)
@@ -190,5 +190,5 @@ def ceiling(belief: Vector, asked: int, oracle: Oracle, tables: Tables) -> float
         largest = max(largest, belief[other])
         held = 1 if asked in (one, other) else 0
         told += massed(belief[one], belief[other], oracle.values[oracle.solved[pair], held])
-    pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest
+    pick = pick_value(largest, tables)
     return float(min(told, max(pick, tables.wait + tables.pick_correct)))

@@ -14,24 +14,27 @@ import numpy as np
 
 from fetch_pomdp.core.bounding.oracle import Oracle, ceiling
 from fetch_pomdp.core.compiled import GOLDEN, Integers, RandomState, Vector, compiled, inlined, lean, mixed, uniform
-from fetch_pomdp.core.planners.fitted.ahead import one_pass
-from fetch_pomdp.core.planners.fitted.outlook import DistinctWords
+from fetch_pomdp.core.planners.fitted.ahead import Lookahead, Pass, Root, one_pass
 from fetch_pomdp.core.planners.fitted.table import ValueTable, kind_of, node_value, pair_class
 from fetch_pomdp.core.planners.kernels import (
-    NO,
+    ASKED,
     NOBODY,
-    YES,
+    WAITED,
+    Turn,
     answered,
     hear,
     largest,
     leading,
     normalise,
+    pick_value,
     select_answer,
     smoothed_mass,
+    turn_of,
 )
 from fetch_pomdp.core.problem import Tables
+from fetch_pomdp.core.simulation import MOST_STEPS
+from fetch_pomdp.core.turns import NO, YES
 
-LAST = 30  # step at which every node is closed
 TIE = 1e-9  # points by which C may seem above a pick it equals
 EQUAL = 1e-12  # difference of beliefs that only rounding makes
 
@@ -39,9 +42,8 @@ EQUAL = 1e-12  # difference of beliefs that only rounding makes
 class Relaxation(NamedTuple):
     """What is fixed before any scenario is drawn."""
 
-    table: ValueTable  # the control V^
+    ahead: Lookahead  # the control V^, and the outlooks that estimate E V^
     oracle: Oracle  # the supersolution C
-    distinct: DistinctWords  # of the outlooks that estimate E V^
     alike: Integers  # (n,), the first item with the same words and direction
     tau: float  # a node that can end at no more is closed
     most_nodes: int  # beyond which a pilot scenario is left, or 0 for none
@@ -51,10 +53,19 @@ class Scenario(NamedTuple):
     """All that is fixed for the clairvoyant, step by step."""
 
     desired: int
-    evidence: Vector  # (LAST, n), likelihood of a step's words and pointing, up to a factor
-    speaks: Vector  # (LAST,), uniform: selects whether an answer comes
-    means: Vector  # (LAST,), uniform: selects whether it is true
-    seeds: RandomState  # (LAST,), of the outlooks of a step's nodes, which share them
+    evidence: Vector  # (MOST_STEPS, n), likelihood of a step's words and pointing, up to a factor
+    speaks: Vector  # (MOST_STEPS,), uniform: selects whether an answer comes
+    means: Vector  # (MOST_STEPS,), uniform: selects whether it is true
+    seeds: RandomState  # (MOST_STEPS,), of the outlooks of a step's nodes, which share them
+
+
+class Layer(NamedTuple):
+    """The nodes that sequences of as many actions lead to."""
+
+    beliefs: Vector  # (k, n)
+    asked: Integers  # (k,), i_r or NOBODY
+    keys: RandomState  # (k,), as of `Children`
+    sums: Vector  # (k,), S
 
 
 class Children(NamedTuple):
@@ -73,12 +84,14 @@ def drawn_scenario(seed: int, tables: Tables) -> Scenario:
     count = len(tables.smoothing)
     state = np.empty(1, dtype=np.uint64)
     state[0] = seed
-    flat, evidence = np.full(count, 1.0 / count), np.empty((LAST, count))
-    speaks, means, seeds = np.empty(LAST), np.empty(LAST), np.empty(LAST, dtype=np.uint64)
+    flat, evidence = np.full(count, 1.0 / count), np.empty((MOST_STEPS, count))
+    speaks, means, seeds = np.empty(MOST_STEPS), np.empty(MOST_STEPS), np.empty(MOST_STEPS, dtype=np.uint64)
     smoothed = smoothed_mass(flat, tables)
     desired = int(uniform(state) * count)
-    for step in range(LAST):
-        hear(flat, smoothed, desired, evidence[step], state, tables)  # from a flat belief: the likelihood
+    for step in range(MOST_STEPS):
+        hear(
+            flat, smoothed, desired, Turn(NOBODY, 0, WAITED), evidence[step], state, tables
+        )  # from a flat belief: the likelihood
         speaks[step], means[step] = uniform(state), uniform(state)
         seeds[step] = np.uint64(uniform(state) * 2.0**53)
     return Scenario(desired, evidence, speaks, means, seeds)
@@ -91,62 +104,53 @@ def control(belief: Vector, asked: int, table: ValueTable, tables: Tables) -> fl
     share = belief[asked] / top.b2 if asked != NOBODY and top.b2 > 0.0 else 0.0
     cls = pair_class(top.first, top.second, table.breaks, tables)
     kind = kind_of(asked, top.first, top.second)
-    return float(node_value(table.values, table.ends, cls, top.b1, top.b2, kind, share, tables))
+    return float(node_value(table, cls, top.b1, top.b2, kind, share, tables))
 
 
 @compiled
-def relaxed(seeds: RandomState, fixed: Relaxation, results: Vector, nodes: Integers, tables: Tables) -> None:
+def relaxed(seeds: RandomState, fixed: Relaxation, results: Vector, nodes: Integers) -> None:
     """Fill in, for the scenario of each seed, the clairvoyant's largest sum of deltas and how many nodes that took."""
     for index in range(len(seeds)):
-        scenario = drawn_scenario(seeds[index], tables)
-        results[index], nodes[index] = foreseen(scenario, fixed, tables)
+        scenario = drawn_scenario(seeds[index], fixed.ahead.tables)
+        results[index], nodes[index] = foreseen(scenario, fixed)
 
 
 @compiled
-def foreseen(scenario: Scenario, fixed: Relaxation, tables: Tables) -> tuple[float, int]:
+def foreseen(scenario: Scenario, fixed: Relaxation) -> tuple[float, int]:
     """Return the largest sum of deltas over all sequences of actions, and how many nodes were expanded.
 
     No less than tau: see `bounding.bounds`.
     """
-    count = len(tables.smoothing)
-    beliefs = np.full((1, count), 1.0 / count)
-    asked, keys, sums = np.full(1, NOBODY), np.zeros(1, dtype=np.uint64), np.zeros(1)
+    count = scenario.evidence.shape[1]
+    flat, start = np.full((1, count), 1.0 / count), np.zeros(1, dtype=np.uint64)
+    layer = Layer(flat, np.full(1, NOBODY), start, np.zeros(1))
     best, expanded = fixed.tau, 0
-    for step in range(LAST + 1):
-        now, found = opened(beliefs, asked, sums, fixed, step == LAST, tables)
+    for step in range(MOST_STEPS + 1):
+        now, found = opened(layer, step, fixed)
         best = max(best, found)
         expanded += len(now)
         if len(now) == 0 or (fixed.most_nodes > 0 and expanded > fixed.most_nodes):
             break
-        before = beliefs[now]
-        children = acted(before, asked[now], keys[now], sums[now], scenario, step, fixed, tables)
-        kept = merged(children)
-        beliefs = np.empty((len(kept), count))
-        for index in range(len(kept)):
-            child = kept[index]
-            parent, rate = children.parents[child], 1.0  # the rate changes the answer's chance, not the belief
-            heard = before[parent] * scenario.evidence[step]
-            normalise(heard)
-            answered(heard, children.asked[child], children.answers[child], rate, beliefs[index], tables)
-        asked, keys, sums = children.asked[kept], children.keys[kept], children.sums[kept]
+        before = Layer(layer.beliefs[now], layer.asked[now], layer.keys[now], layer.sums[now])
+        children = acted(before, scenario, step, fixed)
+        layer = seen(before.beliefs, children, scenario.evidence[step], fixed.ahead.tables)
     return best, expanded
 
 
 @compiled
-def opened(
-    beliefs: Vector, asked: Integers, sums: Vector, fixed: Relaxation, last: bool, tables: Tables
-) -> tuple[Integers, float]:
+def opened(layer: Layer, step: int, fixed: Relaxation) -> tuple[Integers, float]:
     """Return the nodes of a layer to expand, and the best sum that a pick or a closed node ends at."""
-    nodes, count, best = np.empty(len(beliefs), dtype=np.int64), 0, -np.inf
-    for node in range(len(beliefs)):
-        belief = beliefs[node]
-        pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(belief)
-        sofar = sums[node] - control(belief, asked[node], fixed.table, tables)
-        most = ceiling(belief, asked[node], fixed.oracle, tables)
+    tables = fixed.ahead.tables
+    nodes, count, best = np.empty(len(layer.beliefs), dtype=np.int64), 0, -np.inf
+    for node in range(len(layer.beliefs)):
+        belief, asked = layer.beliefs[node], layer.asked[node]
+        pick = pick_value(largest(belief), tables)
+        sofar = layer.sums[node] - control(belief, asked, fixed.ahead.table, tables)
+        most = ceiling(belief, asked, fixed.oracle, tables)
         best = max(best, sofar + pick)
         if sofar + most <= fixed.tau:
             continue
-        if last or most <= pick + TIE:
+        if step == MOST_STEPS or most <= pick + TIE:
             best = max(best, sofar + most)
             continue
         nodes[count] = node
@@ -155,37 +159,49 @@ def opened(
 
 
 @compiled
-def acted(
-    beliefs: Vector, asked: Integers, keys: RandomState, sums: Vector,
-    scenario: Scenario, step: int, fixed: Relaxation, tables: Tables,
-) -> Children:  # fmt: skip
+def acted(layer: Layer, scenario: Scenario, step: int, fixed: Relaxation) -> Children:
     """Return the nodes after a wait and after every question in every node of a layer."""
-    count = len(tables.smoothing)
-    size = len(beliefs) * (count + 1)
+    count, tables = scenario.evidence.shape[1], fixed.ahead.tables
+    size = len(layer.beliefs) * (count + 1)
     whole = np.empty((3, size), dtype=np.int64)
     children = Children(whole[0], whole[1], whole[2], np.empty(size, dtype=np.uint64), np.empty(size))
-    heard, values, state, made = np.empty((3, count + 1)), np.empty(count + 1), np.empty(1, dtype=np.uint64), 0
+    memory, state, made = np.empty((4, count + 1)), np.empty(1, dtype=np.uint64), 0
     places = np.empty(count, dtype=np.int64)
-    for node in range(len(beliefs)):
+    for node in range(len(layer.beliefs)):
+        belief, before, key = layer.beliefs[node], layer.asked[node], layer.keys[node]
         state[0] = scenario.seeds[step]
-        asks = places[: worth_asking(beliefs[node], asked[node], fixed.alike, places)]
-        expected = values[: len(asks) + 1]
-        one_pass(beliefs[node], asked[node], asks, fixed.table, fixed.distinct, state, heard[0, :count], expected,
-                 heard[1], heard[2], tables)  # fmt: skip
-        sofar = sums[node] - control(beliefs[node], asked[node], fixed.table, tables)
+        asks = places[: worth_asking(belief, before, fixed.alike, places)]
+        expected = memory[0, : len(asks) + 1]
+        one_pass(
+            Root(belief, before, 0), asks, fixed.ahead, Pass(expected, memory[1], memory[2], memory[3, :count]), state
+        )
+        sofar = layer.sums[node] - control(belief, before, fixed.ahead.table, tables)
         for action in range(len(expected)):
-            about, rate, reward = asked[node], tables.p_again, tables.wait
-            if action < len(asks):
-                about, rate, reward = asks[action], tables.p_l, tables.point
-            answer = select_answer(scenario.desired, about, rate, scenario.speaks[step], scenario.means[step], tables)
-            children.parents[made], children.asked[made], children.answers[made] = node, about, answer
-            children.keys[made] = key_after(keys[node], asked[node], about, answer)
-            children.sums[made] = sofar + reward + expected[action]
+            asking = action < len(asks)
+            turn = turn_of(before, 0, asks[action] if asking else NOBODY)
+            answer = select_answer(scenario.desired, turn, scenario.speaks[step], scenario.means[step], tables)
+            children.parents[made], children.asked[made], children.answers[made] = node, turn.about, answer
+            children.keys[made] = key_after(key, before, turn.about, answer)
+            children.sums[made] = sofar + (tables.point if asking else tables.wait) + expected[action]
             made += 1
     return Children(
         children.parents[:made], children.asked[:made], children.answers[:made], children.keys[:made],
         children.sums[:made],
     )  # fmt: skip
+
+
+@compiled
+def seen(before: Vector, children: Children, evidence: Vector, tables: Tables) -> Layer:
+    """Return the layer of children after a step's words and pointing: of those that are one node the largest S."""
+    kept = merged(children)
+    beliefs = np.empty((len(kept), before.shape[1]))
+    for index in range(len(kept)):
+        child = kept[index]
+        heard = before[children.parents[child]] * evidence
+        normalise(heard)
+        # The rate changes the answer's chance, not the belief.
+        answered(heard, Turn(children.asked[child], 0, ASKED), children.answers[child], beliefs[index], tables)
+    return Layer(beliefs, children.asked[kept], children.keys[kept], children.sums[kept])
 
 
 @lean

@@ -52,7 +52,9 @@ class Decision:
 class Planner(Protocol):
     """Decides. It keeps no state between calls: the same arguments and generator state give the same decision."""
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         """Choose an action for a belief and i_r, the index of the last item asked about, or None."""
         ...
 
@@ -155,7 +157,9 @@ def decide_many(
         found = f"found {asked.min()} to {asked.max()}, expected -1 to {problem.n_items - 1}"
         raise PlannerError(found, field="asked")
     if isinstance(planner, BatchPlanner):
-        return planner.decide_many(problem, np.ascontiguousarray(beliefs), asked.astype(np.int64), rng=rng, phases=phases)
+        return planner.decide_many(
+            problem, np.ascontiguousarray(beliefs), asked.astype(np.int64), rng=rng, phases=phases
+        )
     return one_by_one(planner, problem, beliefs, asked, rng, phases)
 
 

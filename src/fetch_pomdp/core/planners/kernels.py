@@ -17,39 +17,56 @@ from fetch_pomdp.core.rays import turned
 from fetch_pomdp.core.turns import DESIRED, NO, OTHER, POINTS, SILENT, WORDS, YES
 
 NOBODY = -1
-WAITED, ASKED = 0, 1  # kinds of step, see `turns.Phases`
+WAITED, ASKED = range(2)  # kinds of step, see `turns.Phases`
 
 
-class Heard(NamedTuple):
-    """What a step was like, as far as the phase after it depends on that: whether words came, and pointing."""
+class Turn(NamedTuple):
+    """A step of the person's: i_r in it, the phase in which it began, and its kind."""
+
+    about: int
+    phase: int
+    kind: int
+
+
+class Came(NamedTuple):
+    """What a step brought, as far as the next phase depends on it: whether base words came, and pointing."""
 
     words: int
     seen: int
 
 
 @inlined
-def hear(
-    belief: Vector, smoothed: float, desired: int, phase: int, kind: int, heard: Vector, state: RandomState,
-    tables: Tables,
-) -> Heard:  # fmt: skip
-    """Fill in the belief after base words and a gesture drawn for the desired item (Eq. 4, 5, 7).
+def turn_of(asked: int, phase: int, action: int) -> Turn:
+    """Return the step after a wait (NOBODY) or a question about an item."""
+    return Turn(asked, phase, WAITED) if action == NOBODY else Turn(action, phase, ASKED)
 
-    phase: in which the step began; kind: of the step.
-    """
-    chances = tables.chances[phase, kind]
-    words, seen = spoken(desired, uniform(state) < chances[WORDS], belief, smoothed, heard, state, tables), 0
+
+@inlined
+def phase_after(turn: Turn, came: Came, answer: int, tables: Tables) -> int:
+    """Return the phase that a step leads to."""
+    return int(tables.following[turn.phase, turn.kind, came.words, came.seen, answer])
+
+
+@inlined
+def hear(
+    belief: Vector, smoothed: float, desired: int, turn: Turn, heard: Vector, state: RandomState, tables: Tables
+) -> Came:
+    """Fill in the belief after base words and a gesture drawn for the desired item (Eq. 4, 5, 7)."""
+    chances = tables.chances[turn.phase, turn.kind]
+    words = say(desired, uniform(state) < chances[WORDS], belief, smoothed, heard, state, tables)
+    seen = 0
     if uniform(state) < chances[POINTS]:
         seen = see(desired, heard, state, tables)
     else:
         see_nothing(heard, tables)
-    return Heard(words, seen)
+    return Came(words, seen)
 
 
 @inlined
-def spoken(
+def say(
     desired: int, speaks: bool, belief: Vector, smoothed: float, heard: Vector, state: RandomState, tables: Tables
 ) -> int:
-    """Fill in the belief after a word drawn for the desired item, if anything was said; return whether there was."""
+    """Fill in the belief after a word drawn for the desired item if anybody speaks; return whether they did."""
     which = uniform(state)
     if speaks:
         hear_word(belief, smoothed, draw_word(desired, which, tables), heard, tables)
@@ -121,11 +138,10 @@ def normalise(belief: Vector) -> None:
 
 
 @inlined
-def answered(
-    heard: Vector, about: int, answer: int, phase: int, kind: int, belief: Vector, tables: Tables
-) -> float:
+def answered(heard: Vector, turn: Turn, answer: int, belief: Vector, tables: Tables) -> float:
     """Fill in the belief after an answer to a question about an item (Eq. 6, Table I); return the answer's chance."""
-    rate, if_desired = tables.chances[phase, kind, OTHER], tables.chances[phase, kind, DESIRED]
+    about = turn.about
+    rate, if_desired = tables.chances[turn.phase, turn.kind, OTHER], tables.chances[turn.phase, turn.kind, DESIRED]
     if about == NOBODY or (answer == SILENT and rate == if_desired):
         for item in range(len(heard)):
             belief[item] = heard[item]
@@ -141,47 +157,44 @@ def answered(
 
 @inlined
 def answer_weights(answer: int, rate: float, if_desired: float, tables: Tables) -> tuple[float, float]:
-    """Return how likely an answer is for the item asked about and for another, over the rate of such for another."""
+    """Return the likelihoods of an answer for the item asked about and for another, over the rate of it for another.
+
+    rate, if_desired: chance of an answer if another item is desired, and if that one is.
+    """
     if answer == SILENT:
         return (1.0 - if_desired) / (1.0 - rate), 1.0
     true, false = tables.p_truth, 1.0 - tables.p_truth
     own, others = (true, false) if answer == YES else (false, true)
-    return own * (if_desired / rate), others
+    return (own, others) if rate == if_desired else (own * (if_desired / rate), others)
 
 
 @inlined
-def select_answer(
-    desired: int, about: int, phase: int, kind: int, speaks: float, means: float, tables: Tables
-) -> int:
+def select_answer(desired: int, turn: Turn, speaks: float, means: float, tables: Tables) -> int:
     """Return the answer that two uniform numbers in [0, 1) select by Eq. 6 and Table I."""
-    if about == NOBODY or speaks >= tables.chances[phase, kind, DESIRED if about == desired else OTHER]:
+    desired_asked = turn.about == desired
+    if turn.about == NOBODY or speaks >= tables.chances[turn.phase, turn.kind, DESIRED if desired_asked else OTHER]:
         return SILENT
     truthful = means < tables.p_truth
-    return YES if truthful == (about == desired) else NO
+    return YES if truthful == desired_asked else NO
 
 
 @inlined
-def live_step(
-    belief: Vector,
-    smoothed: float,
-    desired: int,
-    asked: int,
-    phase: int,
-    kind: int,
-    work: Vector,
-    state: RandomState,
-    tables: Tables,
-) -> int:
-    """Replace a belief by that after a step of a person drawn from the model: words, pointing and an answer.
+def live_step(belief: Vector, turn: Turn, desired: int, heard: Vector, state: RandomState, tables: Tables) -> int:
+    """Replace a belief by that after a step of a person drawn from the model: words, pointing, an answer.
 
-    asked: i_r after the robot's action; phase: before it; kind: of the step; work: (n_items,), memory. Returns the
-    phase that the step leads to.
+    heard: (n_items,), memory. Returns the phase that the step leads to.
     """
-    heard = hear(belief, smoothed, desired, phase, kind, work, state, tables)
+    came = hear(belief, smoothed_mass(belief, tables), desired, turn, heard, state, tables)
     speaks, means = uniform(state), uniform(state)
-    answer = select_answer(desired, asked, phase, kind, speaks, means, tables)
-    answered(work, asked, answer, phase, kind, belief, tables)
-    return int(tables.following[phase, kind, heard.words, heard.seen, answer])
+    answer = select_answer(desired, turn, speaks, means, tables)
+    answered(heard, turn, answer, belief, tables)
+    return phase_after(turn, came, answer, tables)
+
+
+@inlined
+def pick_value(belief: float, tables: Tables) -> float:
+    """Return the expected reward of picking an item of a belief."""
+    return tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief
 
 
 @inlined

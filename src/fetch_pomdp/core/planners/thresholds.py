@@ -41,7 +41,15 @@ class Threshold:
             value = checks.within(getattr(self, name), 0.0, 2.0, name, "a belief from 0, or a limit to 2", PlannerError)
             object.__setattr__(self, name, value)
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
+    def decide(
+        self,
+        problem: Problem,
+        belief: Belief,
+        asked: int | None,
+        *,
+        rng: Generator,
+        phase: int = 0,
+    ) -> Decision:
         """Choose by rule."""
         probabilities = belief.probabilities
         action = ruled(probabilities, checked_asked(probabilities, asked, problem), self.pick, self.pair, self.hold)
@@ -49,7 +57,7 @@ class Threshold:
 
     def decide_many(
         self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:  # noqa: ARG002
+    ) -> Integers:
         """Choose an action for every belief, on all cores; see `base.decide_many`."""
         actions = np.empty(len(beliefs), dtype=np.int64)
 

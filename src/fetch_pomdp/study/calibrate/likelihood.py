@@ -55,9 +55,9 @@ def answering(cases: Sequence[Case], problem: Problem) -> Vector:
     """Return log p(l_r | i_d, i_r) of each case."""
     return np.array(
         [
-            language.response_log_likelihood(
-                case.words, case.asked, problem, language.answer_rate(case.action, problem)
-            )[case.desired]
+            language.response_log_likelihood(case.words, case.asked, problem, problem.step_chances(case.action))[
+                case.desired
+            ]
             for case in cases
         ]
     )

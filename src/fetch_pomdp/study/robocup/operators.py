@@ -95,8 +95,10 @@ class Guest:
 
     def respond(self, action: Action, asked: int | None) -> Observation:
         """Return an answer after a question, and a ray most of the time."""
-        rate = language.answer_rate(action, self.problem)
-        words = language.sample_response(self.desired, asked, self.problem, rate, self.rng) if asked is not None else ()
+        chances = self.problem.step_chances(action)
+        words = (
+            language.sample_response(self.desired, asked, self.problem, chances, self.rng) if asked is not None else ()
+        )
         if isinstance(action, Point) and self.rng.random() < self.unknown:
             words = UNKNOWN
         return Observation(words, self._ray())

@@ -14,7 +14,7 @@ from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, NeverAsk, WilliamsYoung
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
+from fetch_pomdp.core.planners.search.planner import ExactAnswers
 from tests.core.planners.baselines.acting import AMBIGUOUS, act, decision
 from tests.core.planners.test_contract import plain
 from tests.tables import twins

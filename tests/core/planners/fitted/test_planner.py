@@ -15,8 +15,7 @@ from fetch_pomdp.core.planners.base import action_of, code_of, decide_many
 from fetch_pomdp.core.planners.fitted.ahead import MOST_ASKED, candidates
 from fetch_pomdp.core.planners.fitted.planner import MOST_FITTED, FittedValue, solution
 from fetch_pomdp.core.planners.fitted.table import ROWS
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold, tuned
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene

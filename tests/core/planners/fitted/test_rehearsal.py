@@ -10,11 +10,11 @@ from numpy.random import default_rng
 
 from fetch_pomdp.core.model import Rewards
 from fetch_pomdp.core.planners.base import Decision, action_of, pick_values, unvalued
-from fetch_pomdp.core.planners.fitted.rehearsal import LONGEST, MOST_ENDS, likeliest_power, rehearse, sharpened
+from fetch_pomdp.core.planners.fitted.rehearsal import MOST_ENDS, Policy, likeliest_power, rehearse, sharpened
 from fetch_pomdp.core.planners.fitted.table import COLUMNS, KINDS, ROWS, UNASKED, ValueTable, table_action
 from fetch_pomdp.core.planners.kernels import leading
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.simulation import run_episode
+from fetch_pomdp.core.simulation import MOST_STEPS, run_episode
 from tests.tables import table, twins
 
 WAITS = ValueTable(np.full((1, ROWS, COLUMNS, KINDS), -50.0), np.empty(0))
@@ -45,10 +45,10 @@ def test_a_sharpened_belief_by_hand() -> None:
 
 def test_a_table_that_waits_for_ever_is_cut_short_and_earns_what_it_waited() -> None:
     problem = twins(2)
-    found = rehearse(WAITS, 1.0, 6, 0, problem.tables, problem.tables)
-    assert found.steps.tolist() == [LONGEST] * 6
+    found = rehearse(Policy(WAITS, 1.0, problem.tables), 6, 0, problem)
+    assert found.steps.tolist() == [MOST_STEPS] * 6
     # Twins say the same, so the first is picked at the end: right every other time.
-    assert found.earned == pytest.approx([-LONGEST + 10.0, -LONGEST - 12.5] * 3)
+    assert found.earned == pytest.approx([-MOST_STEPS + 10.0, -MOST_STEPS - 12.5] * 3)
     assert found.ends == MOST_ENDS
     assert found.power == 1.0
 
@@ -72,7 +72,7 @@ def test_rehearsed_returns_are_those_of_plain_episodes() -> None:
     problem = Problem(dataclasses.replace(problem.scene, rewards=Rewards(point=-2.0)))
     rng = default_rng(8)
     fixed = ValueTable(rng.uniform(4.0, 7.5, (1, ROWS, COLUMNS, KINDS)), np.empty(0))
-    ours = rehearse(fixed, 1.0, 6_000, 1, problem.tables, problem.tables).earned
+    ours = rehearse(Policy(fixed, 1.0, problem.tables), 6_000, 1, problem).earned
     theirs = np.array([
         run_episode(problem, Greedy(fixed), k % 3, default_rng((4, k)), default_rng(k)).earned for k in range(3_000)
     ])  # fmt: skip

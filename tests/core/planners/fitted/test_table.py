@@ -19,7 +19,6 @@ from fetch_pomdp.core.planners.fitted.table import (
     SECOND,
     ValueTable,
     answered_value,
-    cell_of,
     class_breaks,
     classes_of,
     closed_form,
@@ -27,6 +26,7 @@ from fetch_pomdp.core.planners.fitted.table import (
     kind_of,
     node_value,
     pair_class,
+    place_of,
     table_action,
     with_other,
 )
@@ -87,18 +87,18 @@ def test_a_share_of_ends_picks_the_first_item_now() -> None:
     """By hand: one interaction in ten ends with 22.5 b1 - 12.5, whatever going on is worth."""
     top = leading(np.array([0.43, 0.29, 0.19, 0.09]))
     here = (1, top.b1, top.b2, SECOND, 0.0, PROBLEM.tables)
-    lasting, ending = (node_value(TABLE.values, ends, *here) for ends in (0.0, 0.1))
+    lasting, ending = (node_value(TABLE._replace(ends=ends), *here) for ends in (0.0, 0.1))
     assert lasting > 22.5 * 0.43 - 12.5
     assert ending == pytest.approx(0.9 * lasting + 0.1 * (22.5 * 0.43 - 12.5))
 
 
 def test_cells_cover_all_beliefs() -> None:
     for b1, b2 in ((1.0, 0.0), (0.5, 0.5), (1e-5, 1e-5), (1 / 3, 1 / 3), (0.999, 0.001)):
-        cell = cell_of(b1, b2)
-        assert 0 <= cell.row < ROWS - 1
-        assert 0 <= cell.column < COLUMNS - 1
-        assert 0 <= cell.down <= 1
-        assert 0 <= cell.along <= 1
+        place = place_of(b1, b2)
+        assert 0 <= place.row < ROWS - 1
+        assert 0 <= place.column < COLUMNS - 1
+        assert 0 <= place.down <= 1
+        assert 0 <= place.along <= 1
 
 
 def test_the_start_is_the_closed_form_of_a_question() -> None:
@@ -121,7 +121,7 @@ def test_the_tables_action_has_the_nodes_value(belief: list[float], asked: int |
     kind = kind_of(about, top.first, top.second)
     share = 0.0 if asked is None else belief[asked] / top.b2
     cls = 1 if {top.first, top.second} == {0, 1} else 0
-    value = node_value(TABLE.values, TABLE.ends, cls, top.b1, top.b2, kind, share, PROBLEM.tables)
+    value = node_value(TABLE, cls, top.b1, top.b2, kind, share, PROBLEM.tables)
     if action >= 4:
         assert action - 4 == top.first
         assert value == pytest.approx(22.5 * top.b1 - 12.5)

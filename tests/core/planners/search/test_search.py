@@ -14,8 +14,7 @@ from hypothesis import strategies as st
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Decision, Planner
 from fetch_pomdp.core.planners.baselines.searches import NeverAsk
-from fetch_pomdp.core.planners.search.exact import ExactAnswers, default_width
-from fetch_pomdp.core.planners.search.sparse import SparseSampling
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling, default_width
 from fetch_pomdp.core.problem import Problem
 from tests.oracles import asking
 from tests.oracles.value import Values, action_values, after, pick_leaf, value

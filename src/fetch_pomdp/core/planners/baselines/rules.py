@@ -71,13 +71,21 @@ class ChaiRule:
         expected = "a share of the largest belief, above 0 and at most 1"
         object.__setattr__(self, "ratio", checks.within(self.ratio, 1e-9, 1.0, "ratio", expected, PlannerError))
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
+    def decide(
+        self,
+        problem: Problem,
+        belief: Belief,
+        asked: int | None,
+        *,
+        rng: Generator,
+        phase: int = 0,
+    ) -> Decision:
         """Choose by rule."""
         return decided(self._actions, problem, belief, asked)
 
     def decide_many(
         self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:  # noqa: ARG002
+    ) -> Integers:
         """Choose an action for every belief; see `base.decide_many`."""
         return self._actions(beliefs)
 
@@ -110,13 +118,21 @@ class InformationGain:
         value = checks.within(self.worth, 0.0, 1e3, "worth", "a number from 0 to 1000", PlannerError)
         object.__setattr__(self, "worth", value)
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
+    def decide(
+        self,
+        problem: Problem,
+        belief: Belief,
+        asked: int | None,
+        *,
+        rng: Generator,
+        phase: int = 0,
+    ) -> Decision:
         """Choose by rule."""
         return decided(lambda beliefs: self._actions(beliefs, problem), problem, belief, asked)
 
     def decide_many(
         self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:  # noqa: ARG002
+    ) -> Integers:
         """Choose an action for every belief; see `base.decide_many`."""
         return self._actions(beliefs, problem)
 
@@ -126,7 +142,7 @@ class InformationGain:
         gains = answer_information(beliefs, problem)
         asks = self.worth * earned * gains.max(axis=1) > tables.wait - tables.point
         actions = question_or_pick(beliefs, gains.argmax(axis=1), asks)
-        waits = ~asks & (earned * beliefs.max(axis=1) + tables.pick_wrong < tables.wait)
+        waits = ~asks & (pick_values(beliefs, problem).max(axis=1) < tables.wait)
         return np.where(waits, NOBODY, actions)
 
 
@@ -171,13 +187,21 @@ class OneShot:
         value = checks.within(self.confidence, 0.0, 1.0, "confidence", "a probability from 0 to 1", PlannerError)
         object.__setattr__(self, "confidence", value)
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
+    def decide(
+        self,
+        problem: Problem,
+        belief: Belief,
+        asked: int | None,
+        *,
+        rng: Generator,
+        phase: int = 0,
+    ) -> Decision:
         """Wait, or pick the likeliest item."""
         return decided(self._actions, problem, belief, asked)
 
     def decide_many(
         self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:  # noqa: ARG002
+    ) -> Integers:
         """Choose an action for every belief; see `base.decide_many`."""
         return self._actions(beliefs)
 
@@ -200,7 +224,15 @@ class AlwaysAsk:
     def __post_init__(self) -> None:
         checks.within(self.confidence, 1e-9, 1.0, "confidence", "a probability above 0 and at most 1", PlannerError)
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:  # noqa: ARG002
+    def decide(
+        self,
+        problem: Problem,
+        belief: Belief,
+        asked: int | None,
+        *,
+        rng: Generator,
+        phase: int = 0,
+    ) -> Decision:
         """Wait, ask about the likeliest item, or pick it, by rule."""
         probabilities = belief.probabilities
         item = int(probabilities.argmax())

@@ -12,21 +12,22 @@ from numpy.random import Generator
 
 from fetch_pomdp.core.action import Action, Point, Wait
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.planners.base import (
     MOST_DEPTH,
     MOST_WIDTH,
     Decision,
     best_action,
+    checked_asked,
     is_uniform,
     unvalued,
     whole_number,
 )
-from fetch_pomdp.core.planners.kernels import NOBODY
-from fetch_pomdp.core.planners.search.exact import ExactAnswers, default_width, plan_exact
+from fetch_pomdp.core.planners.kernels import WAITED
 from fetch_pomdp.core.planners.search.leaf import last_action
-from fetch_pomdp.core.planners.search.tree import RootValues, Search, searched
-from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.planners.search.planner import ExactAnswers, default_width, searched
+from fetch_pomdp.core.planners.search.tree import Search
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.turns import DESIRED
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,12 +44,14 @@ class NeverAsk:
         whole_number(self.depth, 1, MOST_DEPTH, "depth")
         whole_number(self.width, 1, MOST_WIDTH, "width")
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         """Choose to wait, or the likeliest item."""
         if self.depth == 1:
             return last_action(problem, belief)
-        search = Search(self.depth, self.width, questions=0, patient=False)
-        return searched(plan_exact, problem, belief, asked, search, rng)
+        search = Search(self.depth, self.width, questions=0, exact=True, leaf_asks=False)
+        return searched(problem, belief, asked, search, rng=rng, phase=phase)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +79,11 @@ class WilliamsYoung:
         whole_number(self.depth, 1, MOST_DEPTH, "depth")
         whole_number(self.width, 0, MOST_WIDTH, "width")
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         """Choose the best question, or from the second decision on the best pick if that is better."""
-        found = ExactAnswers(self.depth, self.width).decide(problem, belief, asked, rng=rng)
+        found = ExactAnswers(self.depth, self.width).decide(problem, belief, asked, rng=rng, phase=phase)
         probabilities = belief.probabilities
         if is_uniform(probabilities):
             return Decision(Wait(), np.nan, unvalued(problem), found.pick)
@@ -114,13 +119,15 @@ class DoshiRoy:
         whole_number(self.depth, 2, MOST_DEPTH, "depth")
         whole_number(self.width, 0, MOST_WIDTH, "width")
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         """Choose the action with the highest value."""
         width = self.width or default_width(problem.n_items)
-        search = Search(self.depth, width, problem.n_items, patient=True)
-        return searched(plan_forgetful, problem, belief, asked, search, rng)
-
-
-def plan_forgetful(belief: Vector, asked: int, search: Search, seed: int, tables: Tables) -> RootValues:  # noqa: ARG001
-    """Search like `plan_exact` where nothing was asked before, and no answer comes after a wait."""
-    return plan_exact(belief, NOBODY, search, seed, tables._replace(p_again=0.0))
+        search = Search(self.depth, width, problem.n_items, exact=True, leaf_asks=True)
+        checked_asked(belief.probabilities, asked, problem)
+        # Nothing was asked before, and no answer comes after a wait.
+        chances = problem.tables.chances.copy()
+        chances[:, WAITED, DESIRED:] = 0.0
+        tables = problem.tables._replace(p_again=0.0, chances=chances)
+        return searched(problem, belief, None, search, rng=rng, phase=phase, tables=tables)

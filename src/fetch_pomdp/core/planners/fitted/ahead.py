@@ -3,62 +3,100 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, lean
 from fetch_pomdp.core.planners.fitted.outlook import DistinctWords, look, outlook_size
 from fetch_pomdp.core.planners.fitted.rehearsal import sharpened
-from fetch_pomdp.core.planners.fitted.table import Step, ValueTable, answered_value, classes_of, with_other
-from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, leading, smoothed_mass
+from fetch_pomdp.core.planners.fitted.table import ValueTable, answered_value, classes_of, with_other
+from fetch_pomdp.core.planners.kernels import NOBODY, Came, leading, pick_value, smoothed_mass, turn_of
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.turns import POINTS
 
 MOST_ASKED = 6  # leading items whose questions are valued
 _NEXT_PASS = 0x632BE59BD9B4E019  # far from the steps of the generator, so that passes do not overlap
 
-# Values of a wait, of questions and their standard errors, and the best action (see `afterstate.table_action`).
+# Values of a wait, of questions and their standard errors, and the best action (see `table.table_action`).
 Ahead = tuple[float, Vector, float, Vector, int]
+
+
+class Root(NamedTuple):
+    """Where a decision is made."""
+
+    belief: Vector  # (n_items,)
+    asked: int  # i_r, or NOBODY
+    phase: int  # see `turns`
+
+
+class Lookahead(NamedTuple):
+    """What a step ahead is taken with: a value, what may be heard and seen, and the model that the value is of."""
+
+    table: ValueTable
+    distinct: DistinctWords
+    tables: Tables
+
+
+class Sums(NamedTuple):
+    """What passes add up, of questions about `asks` and, last, of a wait."""
+
+    asks: Integers  # (k,), items
+    totals: Vector  # (k + 1,), of values
+    squares: Vector  # (k + 1,), of their standard errors
+
+
+class Pass(NamedTuple):
+    """What one pass finds for the actions of `Sums`, and its memory."""
+
+    values: Vector  # (k + 1,), what each action leads to
+    errors: Vector  # (k + 1,), their standard errors over the gestures
+    sampled: Vector  # (k + 1,)
+    heard: Vector  # (n_items,)
 
 
 @compiled
 def step_ahead(
     belief: Vector, asked: int, phase: int, table: ValueTable, distinct: DistinctWords, seed: int, passes: int,
     tables: Tables,
-) -> Ahead:
-    """Return what a number of passes finds."""
-    asks = candidates(belief)
-    totals, squares = np.zeros(len(asks) + 1), np.zeros(len(asks) + 1)
-    add_passes(belief, asked, phase, asks, table, distinct, seed, 0, passes, totals, squares, tables)
-    found = chosen(belief, asks, totals, squares, passes, tables)
-    return found if tables.begun[phase] else (found[0], found[1], found[2], found[3], NOBODY)
+) -> Ahead:  # fmt: skip
+    """Return what a number of passes finds. Python hands over the parts of a `Lookahead` faster than the whole."""
+    root, sums = Root(belief, asked, phase), no_sums(belief)
+    add_passes(root, sums, Lookahead(table, distinct, tables), seed, 0, passes)
+    return chosen(root, sums, passes, tables)
 
 
 @compiled
-def add_passes(
-    belief: Vector, asked: int, phase: int, asks: Integers, table: ValueTable, distinct: DistinctWords, seed: int,
-    begin: int, end: int, totals: Vector, squares: Vector, tables: Tables,
-) -> None:  # fmt: skip
-    """Add the values that passes `begin` to `end` find, and the squares of their errors: questions, then a wait.
+def no_sums(belief: Vector) -> Sums:
+    """Return the sums before the first pass."""
+    asks = candidates(belief)
+    return Sums(asks, np.zeros(len(asks) + 1), np.zeros(len(asks) + 1))
+
+
+@compiled
+def add_passes(root: Root, sums: Sums, ahead: Lookahead, seed: int, begin: int, end: int) -> None:
+    """Add what passes `begin` to `end` find.
 
     Pass by pass, so that the sums are the same to the last digit however a number of passes is divided into calls.
     """
-    state, heard = np.empty(1, dtype=np.uint64), np.empty(len(belief))
-    values, errors, sampled = np.empty(len(totals)), np.empty(len(totals)), np.empty(len(totals))
+    asks, totals, squares = sums
+    state, size = np.empty(1, dtype=np.uint64), len(totals)
+    values, errors = np.empty(size), np.empty(size)
+    found = Pass(values, errors, np.empty(size), np.empty(len(root.belief)))
     for number in range(begin, end):
         state[0] = np.uint64(seed) + np.uint64(number) * np.uint64(_NEXT_PASS)
-        one_pass(belief, asked, phase, asks, table, distinct, state, heard, values, errors, sampled, tables)
-        for index in range(len(totals)):
+        one_pass(root, asks, ahead, found, state)
+        for index in range(size):
             totals[index] += values[index]
             squares[index] += errors[index] * errors[index]
 
 
 @lean
-def one_pass(
-    belief: Vector, asked: int, phase: int, asks: Integers, table: ValueTable, distinct: DistinctWords, state: RandomState,
-    heard: Vector, values: Vector, errors: Vector, sampled: Vector, tables: Tables,
-) -> None:  # fmt: skip
-    """Fill in the value that each action leads to, and its standard error over the gestures; `sampled` is memory."""
+def one_pass(root: Root, asks: Integers, ahead: Lookahead, found: Pass, state: RandomState) -> None:
+    """Fill in the value that a question about each of `asks`, and then a wait, leads to, and its standard error."""
+    belief, asked, phase = root
+    table, distinct, tables = ahead
+    values, errors, sampled, heard = found
     smoothed, size = smoothed_mass(belief, tables), outlook_size(distinct, tables)
     rays = distinct.rays if tables.p_g > 0.0 else 0
     for index in range(len(values)):
@@ -69,17 +107,17 @@ def one_pass(
         classes = classes_of(top, table.breaks, tables)
         for index in range(len(values)):
             waits = index == len(asks)
-            about, kind = (asked, WAITED) if waits else (asks[index], ASKED)
-            pairs = with_other(classes, about, top, table.breaks, tables)
-            own = heard[about] if about != NOBODY else 0.0
-            value = answered_value(table, pairs, top, about, own, Step(phase, kind, seen.words, seen.seen), tables)
+            turn = turn_of(asked, phase, NOBODY if waits else asks[index])
+            pairs = with_other(classes, turn.about, top, table.breaks, tables)
+            own = heard[turn.about] if turn.about != NOBODY else 0.0
+            value = answered_value(table, pairs, top, own, turn, Came(seen.words, seen.seen), tables)
             values[index] += (seen.wait if waits else seen.ask) * value
             if number >= size - rays:
                 sampled[index] += value / rays
                 errors[index] += value * value / rays
     for index in range(len(values)):
         spread = max(errors[index] - sampled[index] * sampled[index], 0.0) if rays > 1 else 0.0
-        points = tables.chances[phase, WAITED if index == len(asks) else ASKED, POINTS]
+        points = tables.chances[phase, 0 if index == len(asks) else 1, POINTS]
         errors[index] = points * math.sqrt(spread / max(rays - 1, 1))
 
 
@@ -99,12 +137,13 @@ def candidates(belief: Vector) -> Integers:
 
 
 @compiled
-def chosen(belief: Vector, asks: Integers, totals: Vector, squares: Vector, passes: int, tables: Tables) -> Ahead:
+def chosen(root: Root, sums: Sums, passes: int, tables: Tables) -> Ahead:
     """Return what the sums of passes amount to; equal values go to the pick, then the wait, then the question."""
-    count = len(belief)
+    belief, count = root.belief, len(root.belief)
+    asks, totals, squares = sums
     point, point_errors = np.full(count, np.nan), np.full(count, np.nan)
     wait = tables.wait + totals[-1] / passes
-    best, action = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[asks[0]], count + asks[0]
+    best, action = pick_value(belief[asks[0]], tables), count + asks[0]
     if wait > best:
         best, action = wait, NOBODY
     for index in range(len(asks)):
@@ -112,15 +151,18 @@ def chosen(belief: Vector, asks: Integers, totals: Vector, squares: Vector, pass
         point[asks[index]], point_errors[asks[index]] = value, math.sqrt(squares[index]) / passes
         if value > best:
             best, action = value, asks[index]
+    if tables.begun[root.phase] == 0:
+        action = NOBODY
     return wait, point, math.sqrt(squares[-1]) / passes, point_errors, action
 
 
 @compiled
 def step_ahead_many(
-    beliefs: Vector, asked: Integers, phases: Integers, power: float, table: ValueTable, distinct: DistinctWords, seeds: RandomState,
-    passes: int, actions: Integers, tables: Tables,
+    beliefs: Vector, asked: Integers, phases: Integers, power: float, ahead: Lookahead, seeds: RandomState, passes: int,
+    actions: Integers,
 ) -> None:  # fmt: skip
     """Fill in the best action for that power of every belief."""
+    table, distinct, tables = ahead
     for index in range(len(beliefs)):
         belief = sharpened(beliefs[index], power)
         found = step_ahead(belief, asked[index], phases[index], table, distinct, seeds[index], passes, tables)

@@ -16,13 +16,14 @@ symmetric matrix is kept as (size, width): `band[row, k]` is the entry at (row, 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, lean, random_state, uniform
+from fetch_pomdp.core.planners.fitted.ahead import Lookahead
 from fetch_pomdp.core.planners.fitted.outlook import DistinctWords, look, outlook_size
-from fetch_pomdp.core.planners.fitted.rehearsal import LONGEST, rehearse
+from fetch_pomdp.core.planners.fitted.rehearsal import Policy, rehearse
 from fetch_pomdp.core.planners.fitted.table import (
     ASK_FIRST,
     ASK_SECOND,
@@ -31,27 +32,27 @@ from fetch_pomdp.core.planners.fitted.table import (
     OTHER,
     ROWS,
     Classes,
-    Step,
     ValueTable,
     answered_value,
-    cell_of,
     class_breaks,
     classes_of,
     closed_form,
-    first_table,
     closeness,
+    first_table,
     kind_of,
     pair_class,
+    place_of,
     table_action,
     with_other,
 )
-from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, Leading, leading, live_step, smoothed_mass
+from fetch_pomdp.core.planners.kernels import NOBODY, Came, Leading, leading, live_step, smoothed_mass, turn_of
 from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.simulation import MOST_STEPS
 
 ROUNDS, SWEEPS = 3, 10
 REHEARSED = 500  # interactions, which show how many are cut short
 EXPLORES = 0.25  # share of the steps that explore: half of them wait, and more ask about the first than the second
-PATIENT = 0.5  # share of the interactions that pick at no belief below one drawn uniformly
+RELUCTANT = 0.5  # share of the interactions that pick at no belief below one drawn uniformly
 ANSWERED = 0.2  # i_r that is no leader counts as answered up to this share of b2
 CERTAIN = 0.05  # b2 below which a pair is none
 UNFITTED = KINDS  # a wait between two kinds
@@ -61,17 +62,39 @@ WIDTH = 2 * COLUMNS + 1  # of the band: second differences reach two rows
 
 # A belief met: its leading items, where it lies in the table, i_r and the kind of a wait.
 NODE = np.dtype([
-    ("first", np.int64), ("second", np.int64), ("asked", np.int64), ("kind", np.int64), ("cls", np.int64),
-    ("phase", np.int64), ("table", np.int64),
-    ("b1", np.float64), ("b2", np.float64),
+    ("first", np.int64), ("second", np.int64), ("asked", np.int64), ("phase", np.int64), ("kind", np.int64),
+    ("table", np.int64), ("b1", np.float64), ("b2", np.float64),
 ])  # fmt: skip
 # A belief of its outlook: leaders, classes of their pairs, and beliefs in i_r and the two leaders before, each with the
 # class of its pair with the first now.
 NEXT = np.dtype([
-    ("wait", np.float32), ("ask", np.float32), ("words", np.int8), ("seen", np.int8), ("b1", np.float32), ("b2", np.float32), ("b3", np.float32),
+    ("wait", np.float32), ("ask", np.float32), ("words", np.int8), ("seen", np.int8),
+    ("b1", np.float32), ("b2", np.float32), ("b3", np.float32),
     ("i1", np.int32), ("i2", np.int32), ("i3", np.int32), ("c12", np.int8), ("c13", np.int8), ("c23", np.int8),
     ("own", np.float32, (3,)), ("with_own", np.int8, (3,)),
 ])  # fmt: skip
+
+
+# An interaction that goes on: the item desired, i_r, the phase, how many steps it has had, and what it explores with.
+NOW = np.dtype([
+    ("desired", np.int64), ("asked", np.int64), ("phase", np.int64), ("steps", np.int64), ("least", np.float64),
+])  # fmt: skip
+
+
+class Walk(NamedTuple):
+    """An interaction that explores, and its random numbers."""
+
+    now: Any  # (1,) of NOW
+    belief: Vector  # (n_items,)
+    heard: Vector  # (n_items,), memory
+    state: RandomState
+
+
+class Met(NamedTuple):
+    """Beliefs met, and their outlooks."""
+
+    nodes: Any  # (k,) of NODE
+    nexts: Any  # (k, size of an outlook) of NEXT
 
 
 def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> ValueTable:
@@ -83,33 +106,26 @@ def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> 
     breaks = class_breaks(close[: pairs_met(start, close, random_state(seed), tables)])
     table = ValueTable(np.repeat(start.values, len(breaks) + 1, axis=0), breaks)
     smooth = smoothness()
-    nodes, nexts = np.zeros(count, NODE), np.zeros((count, outlook_size(distinct, tables)), NEXT)
+    met = Met(np.zeros(count, NODE), np.zeros((count, outlook_size(distinct, tables)), NEXT))
     for number in range(ROUNDS):
-        meet(table, nodes, nexts, random_state(seed + 1 + number), distinct, tables)
+        meet(Lookahead(table, distinct, tables), met, random_state(seed + 1 + number))
         lower = np.tile(smooth, (len(table.values), KINDS, 1, 1))
-        normal_matrices(nodes, lower)
+        normal_matrices(met.nodes, lower)
         for _ in range(SWEEPS):
-            sweep(table, nodes, nexts, lower, tables)
+            sweep(table, met, lower, tables)
         if number < ROUNDS - 1:
-            table = table._replace(ends=rehearse(table, 1.0, REHEARSED, seed, tables, tables).ends)
+            table = table._replace(ends=rehearse(Policy(table, 1.0, tables), REHEARSED, seed, problem).ends)
     return table
 
 
 @compiled
 def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tables) -> int:
     """Fill in the closenesses of leading pairs that are met; return how many."""
-    count, belief, work = len(tables.smoothing), np.empty(len(tables.smoothing)), np.empty(len(tables.smoothing))
-    found = 0
+    walk, found = walk_of(state, tables), 0
     for _ in range(len(close)):
-        for item in range(count):
-            belief[item] = 1.0 / count
-        desired, asked, phase = int(uniform(state) * count), NOBODY, 0
-        least = uniform(state) if uniform(state) < PATIENT else 0.0
-        for _step in range(LONGEST):
-            asked, phase = explored_step(belief, asked, phase, desired, least, table, work, state, tables)
-            if asked == count:
-                break
-            top = leading(belief)
+        begin(walk)
+        while walk.now["steps"][0] < MOST_STEPS and go_on(walk, table, tables):
+            top = leading(walk.belief)
             if top.b2 > CERTAIN:
                 close[found] = closeness(top.first, top.second, tables)
                 found += 1
@@ -118,29 +134,54 @@ def pairs_met(table: ValueTable, close: Vector, state: RandomState, tables: Tabl
     return found
 
 
+@compiled
+def meet(ahead: Lookahead, met: Met, state: RandomState) -> None:
+    """Fill in the beliefs that interactions meet, and their outlooks."""
+    walk = walk_of(state, ahead.tables)
+    begin(walk)
+    for index in range(len(met.nodes)):
+        note(walk, met.nodes, index, ahead)
+        look_ahead(walk.belief, met, index, ahead, walk.heard, state)
+        if not go_on(walk, ahead.table, ahead.tables) or walk.now["steps"][0] == MOST_STEPS:
+            begin(walk)
+
+
+@compiled
+def walk_of(state: RandomState, tables: Tables) -> Walk:
+    """Return the memory of interactions that explore."""
+    count = len(tables.smoothing)
+    return Walk(np.zeros(1, NOW), np.empty(count), np.empty(count), state)
+
+
 @lean
-def explored_step(
-    belief: Vector,
-    asked: int,
-    phase: int,
-    desired: int,
-    least: float,
-    table: ValueTable,
-    work: Vector,
-    state: RandomState,
-    tables: Tables,
-) -> tuple[int, int]:
-    """Go on by a step that may explore, and replace the belief; return i_r, or n_items after a pick, and the phase."""
-    action = explored(belief, asked, phase, least, table, state, tables)
+def begin(walk: Walk) -> None:
+    """Begin an interaction anew."""
+    count, now = len(walk.belief), walk.now
+    for item in range(count):
+        walk.belief[item] = 1.0 / count
+    now["desired"][0], now["asked"][0], now["phase"][0] = int(uniform(walk.state) * count), NOBODY, 0
+    now["steps"][0] = 0
+    now["least"][0] = uniform(walk.state) if uniform(walk.state) < RELUCTANT else 0.0
+
+
+@lean
+def go_on(walk: Walk, table: ValueTable, tables: Tables) -> bool:
+    """Go on by a step that may explore, and replace the belief; False after a pick."""
+    now, belief = walk.now, walk.belief
+    action = explored(belief, now["asked"][0], now["phase"][0], now["least"][0], table, walk.state, tables)
     if action >= len(belief):
-        return len(belief), phase
-    kind = WAITED if action == NOBODY else ASKED
-    about = asked if action == NOBODY else action
-    return about, live_step(belief, smoothed_mass(belief, tables), desired, about, phase, kind, work, state, tables)
+        return False
+    now["steps"][0] += 1
+    turn = turn_of(now["asked"][0], now["phase"][0], action)
+    now["asked"][0] = turn.about
+    now["phase"][0] = live_step(belief, turn, now["desired"][0], walk.heard, walk.state, tables)
+    return True
 
 
 @lean
-def explored(belief: Vector, asked: int, phase: int, least: float, table: ValueTable, state: RandomState, tables: Tables) -> int:
+def explored(
+    belief: Vector, asked: int, phase: int, least: float, table: ValueTable, state: RandomState, tables: Tables
+) -> int:
     """Return the table's action, or now and then another that goes on; nothing is picked below the belief `least`.
 
     NOBODY is a wait, an item below n_items a question about it, n_items and more a pick.
@@ -156,60 +197,27 @@ def explored(belief: Vector, asked: int, phase: int, least: float, table: ValueT
     return top.first if which < 0.8 else top.second
 
 
-@compiled
-def meet(
-    table: ValueTable, nodes: Any, nexts: Any, state: RandomState, distinct: DistinctWords, tables: Tables
-) -> None:
-    """Fill in the beliefs that interactions meet, and their outlooks."""
-    count = len(tables.smoothing)
-    belief, work = np.empty(count), np.empty(count)
-    met = 0
-    while met < len(nodes):
-        for item in range(count):
-            belief[item] = 1.0 / count
-        desired, asked, phase = int(uniform(state) * count), NOBODY, 0
-        least = uniform(state) if uniform(state) < PATIENT else 0.0
-        for _step in range(LONGEST):
-            if met == len(nodes):
-                break
-            note(belief, asked, phase, nodes, met, table.breaks, tables)
-            look_ahead(belief, nodes, nexts, met, table.breaks, work, state, distinct, tables)
-            met += 1
-            asked, phase = explored_step(belief, asked, phase, desired, least, table, work, state, tables)
-            if asked == count:
-                break
-
-
 @inlined
-def note(belief: Vector, asked: int, phase: int, nodes: Any, index: int, breaks: Vector, tables: Tables) -> None:
+def note(walk: Walk, nodes: Any, index: int, ahead: Lookahead) -> None:
     """Fill in a node."""
+    belief, asked, phase = walk.belief, walk.now["asked"][0], walk.now["phase"][0]
     top = leading(belief)
     kind = kind_of(asked, top.first, top.second)
     if kind == OTHER and belief[asked] > ANSWERED * top.b2:
         kind = UNFITTED
     nodes["first"][index], nodes["second"][index], nodes["asked"][index] = top.first, top.second, asked
     nodes["kind"][index], nodes["b1"][index], nodes["b2"][index] = kind, top.b1, top.b2
-    cls = pair_class(top.first, top.second, breaks, tables)
-    nodes["cls"][index], nodes["phase"][index] = cls, phase
-    nodes["table"][index] = first_table(phase, breaks, tables) + cls
+    nodes["phase"][index], nodes["table"][index] = phase, first_table(phase, ahead.table.breaks, ahead.tables)
+    nodes["table"][index] += pair_class(top.first, top.second, ahead.table.breaks, ahead.tables)
 
 
 @inlined
-def look_ahead(
-    belief: Vector,
-    nodes: Any,
-    nexts: Any,
-    index: int,
-    breaks: Vector,
-    heard: Vector,
-    state: RandomState,
-    distinct: DistinctWords,
-    tables: Tables,
-) -> None:
+def look_ahead(belief: Vector, met: Met, index: int, ahead: Lookahead, heard: Vector, state: RandomState) -> None:
     """Fill in a node's outlook."""
-    smoothed = smoothed_mass(belief, tables)
+    nexts, breaks, tables = met.nexts, ahead.table.breaks, ahead.tables
+    smoothed, phase = smoothed_mass(belief, tables), met.nodes["phase"][index]
     for number in range(nexts.shape[1]):
-        seen = look(number, belief, smoothed, nodes["phase"][index], heard, state, distinct, tables)
+        seen = look(number, belief, smoothed, phase, heard, state, ahead.distinct, tables)
         nexts["wait"][index, number], nexts["ask"][index, number] = seen.wait, seen.ask
         nexts["words"][index, number], nexts["seen"][index, number] = seen.words, seen.seen
         top = leading(heard)
@@ -220,7 +228,7 @@ def look_ahead(
         nexts["c12"][index, number], nexts["c13"][index, number] = classes.first_second, classes.first_third
         nexts["c23"][index, number] = classes.second_third
         for slot in range(3):
-            about = marked(nodes, index, slot)
+            about = marked(met.nodes, index, slot)
             nexts["own"][index, number, slot] = heard[about] if about != NOBODY else 0.0
             other = with_other(classes, about, top, breaks, tables).other_first
             nexts["with_own"][index, number, slot] = other
@@ -235,10 +243,12 @@ def marked(nodes: Any, index: int, slot: int) -> int:
 
 
 @lean
-def backed_up(index: int, slot: int, table: ValueTable, nodes: Any, nexts: Any, tables: Tables) -> float:
+def backed_up(index: int, slot: int, table: ValueTable, met: Met, tables: Tables) -> float:
     """Return the expected value after an action of a node, over its outlook and the answers."""
-    about, kind, phase = marked(nodes, index, slot), WAITED if slot == 0 else ASKED, nodes["phase"][index]
-    total = 0.0
+    nexts, total = met.nexts, 0.0
+    turn = turn_of(
+        met.nodes["asked"][index], met.nodes["phase"][index], NOBODY if slot == 0 else marked(met.nodes, index, slot)
+    )
     for number in range(nexts.shape[1]):
         top = Leading(
             nexts["i1"][index, number], nexts["i2"][index, number], nexts["i3"][index, number],
@@ -249,9 +259,9 @@ def backed_up(index: int, slot: int, table: ValueTable, nodes: Any, nexts: Any, 
             nexts["with_own"][index, number, slot],
         )  # fmt: skip
         own = float(nexts["own"][index, number, slot])
-        step = Step(phase, kind, nexts["words"][index, number], nexts["seen"][index, number])
+        came = Came(nexts["words"][index, number], nexts["seen"][index, number])
         chance = float(nexts["wait"][index, number]) if slot == 0 else float(nexts["ask"][index, number])
-        total += chance * answered_value(table, classes, top, about, own, step, tables)
+        total += chance * answered_value(table, classes, top, own, turn, came, tables)
     return total
 
 
@@ -259,11 +269,11 @@ def backed_up(index: int, slot: int, table: ValueTable, nodes: Any, nexts: Any, 
 def normal_matrices(nodes: Any, lower: Vector) -> None:
     """Add to (classes, KINDS, entries, WIDTH) what the nodes weigh in least squares, and factor it."""
     for index in range(len(nodes)):
-        cell = cell_of(nodes["b1"][index], nodes["b2"][index])
+        place = place_of(nodes["b1"][index], nodes["b2"][index])
         for slot in range(3):
             kind = slot_kind(nodes, index, slot)
             if kind != UNFITTED:
-                add_row(lower[nodes["table"][index], kind], cell.row, cell.column, cell.down, cell.along)
+                add_row(lower[nodes["table"][index], kind], place.row, place.column, place.down, place.along)
     for cls in range(lower.shape[0]):
         for kind in range(KINDS):
             factor(lower[cls, kind])
@@ -276,9 +286,9 @@ def slot_kind(nodes: Any, index: int, slot: int) -> int:
 
 
 @compiled
-def sweep(table: ValueTable, nodes: Any, nexts: Any, lower: Vector, tables: Tables) -> None:
+def sweep(table: ValueTable, met: Met, lower: Vector, tables: Tables) -> None:
     """Back all nodes up under the table, and replace it by the fit."""
-    values = table.values
+    values, nodes = table.values, met.nodes
     classes = values.shape[0]
     right = np.empty((classes, KINDS, ROWS * COLUMNS))
     for cls in range(classes):
@@ -286,15 +296,15 @@ def sweep(table: ValueTable, nodes: Any, nexts: Any, lower: Vector, tables: Tabl
             for entry in range(ROWS * COLUMNS):
                 right[cls, kind, entry] = ANCHOR * values[cls, entry // COLUMNS, entry % COLUMNS, kind]
     for index in range(len(nodes)):
-        cell = cell_of(nodes["b1"][index], nodes["b2"][index])
+        place = place_of(nodes["b1"][index], nodes["b2"][index])
         for slot in range(3):
             kind = slot_kind(nodes, index, slot)
             if kind == UNFITTED:
                 continue
-            value = backed_up(index, slot, table, nodes, nexts, tables)
+            value = backed_up(index, slot, table, met, tables)
             for one in range(4):
-                entry = (cell.row + one // 2) * COLUMNS + cell.column + one % 2
-                right[nodes["table"][index], kind, entry] += corner(one, cell.down, cell.along) * value
+                entry = (place.row + one // 2) * COLUMNS + place.column + one % 2
+                right[nodes["table"][index], kind, entry] += corner(one, place.down, place.along) * value
     for cls in range(classes):
         for kind in range(KINDS):
             solve(lower[cls, kind], right[cls, kind])

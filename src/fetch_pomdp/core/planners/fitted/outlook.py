@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, inlined, lean, uniform
-from fetch_pomdp.core.planners.kernels import ASKED, WAITED, draw_item, hear_word, see, see_nothing, spoken
+from fetch_pomdp.core.planners.kernels import ASKED, WAITED, draw_item, hear_word, say, see, see_nothing
 from fetch_pomdp.core.problem import Problem, Tables
 from fetch_pomdp.core.turns import POINTS, WORDS
 
@@ -34,6 +34,11 @@ def distinct_words(problem: Problem, rays: int) -> DistinctWords:
     alike = problem.words_by_owners().values()
     words = np.array([members[0] for members in alike], dtype=np.int64)
     return DistinctWords(words, np.array([len(members) for members in alike], dtype=np.float64), rays)
+
+
+def rays_of(problem: Problem, rays: int) -> int:
+    """Return how many rays to draw for an outlook: twice as many where each is drawn with a word and without."""
+    return 2 * rays if problem.model.turns else rays
 
 
 @inlined
@@ -79,16 +84,16 @@ def look(
         draw = index - count - 1
         if wait[WORDS] == ask[WORDS]:
             desired = draw_item(belief, (draw + uniform(state)) / distinct.rays)
-            words = spoken(desired, uniform(state) < wait[WORDS], belief, smoothed, heard, state, tables)
-            wait_share, ask_share = 1.0 / distinct.rays, 1.0 / distinct.rays
+            words = say(desired, uniform(state) < wait[WORDS], belief, smoothed, heard, state, tables)
+            of, wait_share, ask_share = distinct.rays, 1.0, 1.0
         else:  # every other ray comes with a word, so that one draw serves both kinds of step
-            half, words = distinct.rays // 2, draw % 2
-            desired = draw_item(belief, (draw // 2 + uniform(state)) / half)
-            spoken(desired, words == 1, belief, smoothed, heard, state, tables)
-            wait_share = (wait[WORDS] if words else 1.0 - wait[WORDS]) / half
-            ask_share = (ask[WORDS] if words else 1.0 - ask[WORDS]) / half
+            of, words = distinct.rays // 2, draw % 2
+            desired = draw_item(belief, (draw // 2 + uniform(state)) / of)
+            say(desired, words == 1, belief, smoothed, heard, state, tables)
+            wait_share = wait[WORDS] if words else 1.0 - wait[WORDS]
+            ask_share = ask[WORDS] if words else 1.0 - ask[WORDS]
         seen = see(desired, heard, state, tables)
-        return Look(wait[POINTS] * wait_share, ask[POINTS] * ask_share, words, seen)
+        return Look(wait[POINTS] / of * wait_share, ask[POINTS] / of * ask_share, words, seen)
     words, wait_chance, ask_chance, share = 1, wait[WORDS], ask[WORDS], 1.0
     if index == 0:
         for item in range(len(belief)):
@@ -102,7 +107,7 @@ def look(
         wait_chance, ask_chance = wait_chance * chance, ask_chance * chance
     else:
         desired = draw_item(belief, (index - 1 + uniform(state)) / count)
-        spoken(desired, True, belief, smoothed, heard, state, tables)
+        say(desired, True, belief, smoothed, heard, state, tables)
         wait_chance, ask_chance = wait_chance / count, ask_chance / count
     see_nothing(heard, tables)
     wait_still, ask_still = 1.0 - wait[POINTS], 1.0 - ask[POINTS]

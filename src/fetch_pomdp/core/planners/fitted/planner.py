@@ -17,13 +17,23 @@ from fetch_pomdp import checks
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Integers, Vector, on_all_cores
 from fetch_pomdp.core.planners.base import Decision, action_of, checked_asked, one_by_one, pick_values, whole_number
-from fetch_pomdp.core.planners.fitted.ahead import Ahead, add_passes, candidates, chosen, step_ahead, step_ahead_many
-from fetch_pomdp.core.planners.fitted.outlook import DistinctWords, distinct_words
-from fetch_pomdp.core.planners.fitted.rehearsal import sharpened
-from fetch_pomdp.core.planners.fitted.selection import Policy, selected
+from fetch_pomdp.core.planners.fitted.ahead import (
+    Ahead,
+    Lookahead,
+    Root,
+    add_passes,
+    chosen,
+    no_sums,
+    step_ahead,
+    step_ahead_many,
+)
+from fetch_pomdp.core.planners.fitted.outlook import distinct_words, rays_of
+from fetch_pomdp.core.planners.fitted.rehearsal import Policy, sharpened
+from fetch_pomdp.core.planners.fitted.selection import selected
 from fetch_pomdp.core.planners.fitted.table import ValueTable
-from fetch_pomdp.core.planners.search.exact import ExactAnswers
-from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.planners.kernels import pick_value
+from fetch_pomdp.core.planners.search.planner import ExactAnswers
+from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import PlannerError
 
@@ -33,15 +43,15 @@ CAUTION = 0.7  # share of a budget after which no pass may be expected to end
 
 
 class Solution(NamedTuple):
-    """What a problem is solved to."""
+    """What a problem is solved to: the power of a belief that is read, and what to look ahead with."""
 
-    policy: Policy
-    distinct: DistinctWords  # with the rays of a decision
+    power: float
+    ahead: Lookahead  # with the rays of a decision
 
     @property
     def table(self) -> ValueTable:
         """The value of having acted."""
-        return self.policy.table
+        return self.ahead.table
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,38 +97,39 @@ class FittedValue:
         """Solve the problem and load what is compiled now, so that the first decision is as fast as the others."""
         self.decide(problem, Belief.uniform(problem.n_items), None, rng=np.random.default_rng(0))
 
-    def decide(self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0) -> Decision:
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
         """Choose the action with the highest value."""
         started = time.perf_counter()
         if problem.n_items > MOST_FITTED:
             return ExactAnswers().decide(problem, belief, asked, rng=rng, phase=phase)
         about = checked_asked(belief.probabilities, asked, problem)
         known = solution(problem, self)
-        probabilities = sharpened(belief.probabilities, known.policy.power)
+        probabilities = sharpened(belief.probabilities, known.power)
+        pick = pick_values(probabilities, problem)
         seed, passes = int(rng.random() * 2.0**53), None
         if self.budget_ms is None:
-            found = step_ahead(probabilities, about, phase, known.table, known.distinct, seed, self.passes, known.policy.plan)
+            table, distinct, tables = known.ahead
+            found = step_ahead(probabilities, about, phase, table, distinct, seed, self.passes, tables)
         else:
             ends = started + CAUTION * self.budget_ms / 1e3
-            found, passes = self._refined(known, probabilities, about, phase, seed, ends)
+            found, passes = self._refined(Root(probabilities, about, phase), known.ahead, seed, ends)
         wait, point, wait_error, errors, action = found
-        pick = pick_values(probabilities, problem)
         return Decision(action_of(action, problem), wait, point, pick, wait_error, errors, passes=passes)
 
-    def _refined(self, known: Solution, probabilities: Vector, about: int, phase: int, seed: int, ends: float) -> tuple[Ahead, int]:
+    def _refined(self, root: Root, ahead: Lookahead, seed: int, ends: float) -> tuple[Ahead, int]:
         """Return what passes find until the best action is clear or the time is up, and how many they were."""
-        plan, asks, likeliest = known.policy.plan, candidates(probabilities), float(probabilities.max())
-        totals, squares = np.zeros(len(asks) + 1), np.zeros(len(asks) + 1)
-        done, more = 0, self.passes
+        sums, done, more = no_sums(root.belief), 0, self.passes
+        pick = pick_value(float(root.belief.max()), ahead.tables)
         while True:
             before = time.perf_counter()
-            add_passes(probabilities, about, phase, asks, known.table, known.distinct, seed, done, done + more, totals,
-                       squares, plan)  # fmt: skip
+            add_passes(root, sums, ahead, seed, done, done + more)
             done += more
-            found = chosen(probabilities, asks, totals, squares, done, plan)
+            found = chosen(root, sums, done, ahead.tables)
             now = time.perf_counter()
             more = done  # doubled, as long as twice the time that half of it took is left
-            if now + 2.0 * (now - before) > ends or done + more > MOST_PASSES or not is_close(found, likeliest, plan):
+            if now + 2.0 * (now - before) > ends or done + more > MOST_PASSES or not is_close(found, pick):
                 return found, done
 
     def decide_many(
@@ -128,23 +139,29 @@ class FittedValue:
         if problem.n_items > MOST_FITTED:
             return one_by_one(self, problem, beliefs, asked, rng, phases)
         actions = np.empty(len(beliefs), dtype=np.int64)
-        stands = np.zeros(len(beliefs), dtype=np.int64) if phases is None else phases
-        known = solution(problem, self)
+        known, begun = solution(problem, self), np.zeros(len(beliefs), dtype=np.int64) if phases is None else phases
         seeds = (rng.random(len(beliefs)) * 2.0**53).astype(np.uint64)
 
         def share(begin: int, end: int) -> None:
             part = slice(begin, end)
-            step_ahead_many(beliefs[part], asked[part], stands[part], known.policy.power, known.table, known.distinct, seeds[part],
-                            self.passes, actions[part], known.policy.plan)  # fmt: skip
+            step_ahead_many(
+                beliefs[part],
+                asked[part],
+                begun[part],
+                known.power,
+                known.ahead,
+                seeds[part],
+                self.passes,
+                actions[part],
+            )
 
         on_all_cores(share, len(beliefs))
         return actions
 
 
-def is_close(found: Ahead, likeliest: float, tables: Tables) -> bool:
+def is_close(found: Ahead, pick: float) -> bool:
     """Whether the best two of a wait, the best question and the best pick are within two standard errors."""
     wait, point, wait_error, errors, _ = found
-    pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * likeliest
     question = int(np.nanargmax(point))
     ranked = sorted([(wait, wait_error), (float(point[question]), float(errors[question])), (pick, 0.0)])
     (second, second_error), (best, best_error) = ranked[-2:]
@@ -159,7 +176,8 @@ def solution(problem: Problem, planner: FittedValue) -> Solution:
     known, key = _solutions.setdefault(problem, {}), (planner.beliefs, planner.seed, planner.rays)
     if key not in known:
         policy = _policy(problem.scene, planner.beliefs, planner.seed)
-        known[key] = Solution(policy, distinct_words(problem, planner.rays * (2 if problem.model.turns else 1)))
+        ahead = Lookahead(policy.table, distinct_words(problem, rays_of(problem, planner.rays)), policy.plan)
+        known[key] = Solution(policy.power, ahead)
     return known[key]
 
 

@@ -1,6 +1,6 @@
 """What becomes of a table's policy with people: interactions that it plays before it is used.
 
-They show what the table itself does not know: how often an interaction is cut short after LONGEST steps, and how far
+They show what the table itself does not know: how often an interaction is cut short after MOST_STEPS steps, and how far
 the filter's beliefs are from being probabilities. Eq. 7 is not the density of the rays that are sampled (`gesture`), so
 that beliefs under it hold too little: an item of belief 0.9 is the desired one more often than nine times of ten. The
 power of a belief that is most likely given what was desired mends that (temperature scaling: Guo et al. 2017).
@@ -12,16 +12,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, inlined
+from fetch_pomdp.core.compiled import Integers, Vector, compiled, inlined
 from fetch_pomdp.core.planners.fitted.table import ValueTable, table_action
-from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, leading, live_step, smoothed_mass
-from fetch_pomdp.core.problem import Tables
+from fetch_pomdp.core.planners.kernels import leading
+from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.simulation import MOST_STEPS, Interactions
 
-LONGEST = 30  # steps of an interaction, after which the robot has to pick
 MOST_NOTED, NUMBERS_NOTED = 20_000, 200_000  # beliefs, and their entries in all
 NOTED_EVERY = 4  # steps
 MOST_ENDS = 0.02
 WEAKEST, STRONGEST = 0.25, 4.0  # powers
+
+
+class Policy(NamedTuple):
+    """A table, the power of a belief that it reads, and what it was fitted to."""
+
+    table: ValueTable
+    power: float
+    plan: Tables
 
 
 class Rehearsal(NamedTuple):
@@ -34,12 +42,12 @@ class Rehearsal(NamedTuple):
 
     @property
     def ends(self) -> float:
-        """A chance for a step to be the last one, the same for all steps, that plans well for one end at LONGEST.
+        """A chance for a step to be the last one, the same for all steps, that plans well for one end at MOST_STEPS.
 
         Choice: twice the share of steps that were the last one allowed, at most MOST_ENDS: of what was tried (once,
         twice, and fixed shares) this earned most on random scenes.
         """
-        return min(2.0 * float((self.steps == LONGEST).sum() / max(1, self.steps.sum())), MOST_ENDS)
+        return min(2.0 * float((self.steps == MOST_STEPS).sum() / max(1, self.steps.sum())), MOST_ENDS)
 
     @property
     def power(self) -> float:
@@ -47,45 +55,39 @@ class Rehearsal(NamedTuple):
         return likeliest_power(self.beliefs, self.desired)
 
 
-def rehearse(table: ValueTable, power: float, count: int, seed: int, plan: Tables, tables: Tables) -> Rehearsal:
-    """Play `count` interactions of a table's policy that reads a power of the filter's beliefs.
-
-    plan: what the table was fitted to; tables: of the filter and the people.
-    """
+def rehearse(policy: Policy, count: int, seed: int, problem: Problem) -> Rehearsal:
+    """Play `count` interactions of a policy with a problem's people; it reads its power of the filter's beliefs."""
+    n_items = problem.n_items
     people = np.random.default_rng(seed).integers(2**63, size=count, dtype=np.uint64)
-    earned, steps, n_items = np.zeros(count), np.zeros(count, dtype=np.int64), len(tables.smoothing)
-    most = min(MOST_NOTED, NUMBERS_NOTED // n_items)
-    beliefs, desired = np.empty((most, n_items)), np.empty(most, dtype=np.int64)
-    noted = _play(table, power, people, earned, steps, beliefs, desired, plan, tables)
-    return Rehearsal(earned, steps, beliefs[:noted], desired[:noted])
+    played = Interactions.begin(np.arange(count) % n_items, people, n_items)
+    places, beliefs = list[Integers](), list[Vector]()
+
+    def note(those: Integers) -> None:
+        noted = those[(those + played.steps[those]) % NOTED_EVERY == 0]
+        places.append(noted * (MOST_STEPS + 1) + played.steps[noted])
+        beliefs.append(played.beliefs[noted])
+
+    def decide(active: Integers) -> Integers:
+        note(active)
+        actions = np.empty(len(active), dtype=np.int64)
+        policy_actions(played.beliefs[active], played.asked[active], played.phases[active], policy, actions)
+        return actions
+
+    played.play_out(decide, problem)
+    note(np.flatnonzero(played.steps == MOST_STEPS))
+    place = np.concatenate(places)
+    first = place.argsort()[: min(MOST_NOTED, NUMBERS_NOTED // n_items)]  # one interaction after the other
+    desired = played.desired[place[first] // (MOST_STEPS + 1)]
+    return Rehearsal(played.earned, played.steps, np.concatenate(beliefs)[first], desired)
 
 
 @compiled
-def _play(
-    table: ValueTable, power: float, people: RandomState, earned: Vector, steps: Integers,
-    beliefs: Vector, desired: Integers, plan: Tables, tables: Tables,
-) -> int:  # fmt: skip
-    count, noted = len(tables.smoothing), 0
-    belief, read, work = np.empty(count), np.empty(count), np.empty(count)
-    for k in range(len(people)):
-        state, wanted, asked, phase = people[k : k + 1], k % count, NOBODY, 0
-        belief[:] = 1.0 / count
-        while True:
-            if (k + steps[k]) % NOTED_EVERY == 0 and noted < len(beliefs):
-                beliefs[noted], desired[noted] = belief, wanted
-                noted += 1
-            sharpen(belief, power, read)
-            top = leading(read)
-            action = table_action(read, asked, phase, top, table, plan)
-            if action >= count or steps[k] == LONGEST:
-                earned[k] += tables.pick_correct if top.first == wanted else tables.pick_wrong
-                break
-            steps[k] += 1
-            earned[k] += tables.wait if action == NOBODY else tables.point
-            kind = WAITED if action == NOBODY else ASKED
-            asked = asked if action == NOBODY else action
-            phase = live_step(belief, smoothed_mass(belief, tables), wanted, asked, phase, kind, work, state, tables)
-    return noted
+def policy_actions(beliefs: Vector, asked: Integers, phases: Integers, policy: Policy, actions: Integers) -> None:
+    """Fill in the action of a policy for every belief, (k,), as in `planners.base`."""
+    read = np.empty(beliefs.shape[1])
+    for index in range(len(beliefs)):
+        sharpen(beliefs[index], policy.power, read)
+        actions[index] = table_action(read, asked[index], phases[index], leading(read), policy.table, policy.plan)
 
 
 @inlined

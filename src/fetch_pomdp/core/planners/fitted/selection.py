@@ -2,27 +2,17 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from fetch_pomdp.core.planners.fitted.fit import fitted
-from fetch_pomdp.core.planners.fitted.outlook import distinct_words
-from fetch_pomdp.core.planners.fitted.rehearsal import rehearse
+from fetch_pomdp.core.planners.fitted.outlook import distinct_words, rays_of
+from fetch_pomdp.core.planners.fitted.rehearsal import Policy, rehearse
 from fetch_pomdp.core.planners.fitted.table import ValueTable
-from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import LARGEST_EXACT
 
 FIT_RAYS = 4  # rays of an outlook while fitting
 LEARNT = (0.5, 1.0, 2.0)  # of the logarithm of the likeliest power
 LEAST_POWER = 1.05  # below it is what chance makes of 1
 MOST_REHEARSED, NUMBERS_REHEARSED = 8_000, 100_000  # interactions, and beliefs' entries in one step of all
-
-
-class Policy(NamedTuple):
-    """A table, the power of a belief that it reads, and what it was fitted to."""
-
-    table: ValueTable
-    power: float
-    plan: Tables
 
 
 def selected(problem: Problem, beliefs: int, seed: int) -> Policy:
@@ -44,16 +34,13 @@ def selected(problem: Problem, beliefs: int, seed: int) -> Policy:
 
 def planned(problem: Problem, beliefs: int, seed: int) -> ValueTable:
     """Return the value table of a problem."""
-    return fitted(problem, distinct_words(problem, FIT_RAYS * (2 if problem.model.turns else 1)), beliefs, seed)
+    return fitted(problem, distinct_words(problem, rays_of(problem, FIT_RAYS)), beliefs, seed)
 
 
 def _rehearsed(table: ValueTable, plan: Problem, problem: Problem, seed: int) -> list[tuple[Policy, float]]:
     """Return a plan's policies, one a power, and what they earn."""
     count = min(MOST_REHEARSED, NUMBERS_REHEARSED // problem.n_items)
-    likeliest = rehearse(table, 1.0, max(1, count // 4), seed, plan.tables, problem.tables).power
+    likeliest = rehearse(Policy(table, 1.0, plan.tables), max(1, count // 4), seed, problem).power
     powers = [likeliest**share for share in LEARNT] if likeliest >= LEAST_POWER else [1.0]
     policies = [Policy(table, power, plan.tables) for power in powers]
-    return [
-        (policy, float(rehearse(table, policy.power, count, seed + 1, plan.tables, problem.tables).earned.mean()))
-        for policy in policies
-    ]
+    return [(policy, float(rehearse(policy, count, seed + 1, problem).earned.mean())) for policy in policies]

@@ -26,11 +26,11 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Vector, compiled, inlined, lean
-from fetch_pomdp.core.planners.kernels import NOBODY, Leading, answer_weights
+from fetch_pomdp.core.planners.kernels import NOBODY, Came, Leading, Turn, answer_weights, pick_value
 from fetch_pomdp.core.planners.search.leaf import leaf_of, leaf_value
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.turns import DESIRED, NO, SILENT, YES
-from fetch_pomdp.core.turns import OTHER as OTHER_ITEM
+from fetch_pomdp.core.turns import OTHER as OTHER_DESIRED
 
 MOST_CLASSES = 3
 _LLOYD_ROUNDS = 20
@@ -43,8 +43,7 @@ UNASKED, FIRST, SECOND, OTHER, ASK_FIRST, ASK_SECOND = range(KINDS)
 class ValueTable(NamedTuple):
     """A fitted value: `values` (groups * classes, ROWS, COLUMNS, KINDS) in points, and the breaks between classes.
 
-    Groups are those of phases (`turns.Phases.alike`): a table of a group and a class is that of index group * classes +
-    class.
+    Groups are those of `turns.Phases.alike`; the table of a group and a class is number group * classes + class.
     """
 
     values: Vector
@@ -52,22 +51,13 @@ class ValueTable(NamedTuple):
     ends: float = 0.0  # share of the interactions that a step ends with a forced pick
 
 
-class Cell(NamedTuple):
+class Place(NamedTuple):
     """A place in the table, by its lower corner and how far it is on to the next."""
 
     row: int
     column: int
     down: float
     along: float
-
-
-class Step(NamedTuple):
-    """A step up to its answer: the phase in which it began, its kind, and what came in it."""
-
-    phase: int
-    kind: int
-    words: int
-    seen: int
 
 
 class Classes(NamedTuple):
@@ -135,19 +125,19 @@ def class_breaks(seen: Vector) -> Vector:
 
 
 @inlined
-def cell_of(b1: float, b2: float) -> Cell:
+def place_of(b1: float, b2: float) -> Place:
     """Return where the table has two leading beliefs."""
     x = b1 * (ROWS - 1)
     most = min(b1, 1.0 - b1)
     y = min(b2 / most, 1.0) * (COLUMNS - 1) if most > 1e-12 else 0.0
     row, column = min(int(x), ROWS - 2), min(int(y), COLUMNS - 2)
-    return Cell(row, column, x - row, y - column)
+    return Place(row, column, x - row, y - column)
 
 
 @inlined
-def at(values: Vector, cls: int, kind: int, cell: Cell) -> float:
+def at(values: Vector, cls: int, kind: int, place: Place) -> float:
     """Return the table's value at a place, bilinear between its entries."""
-    row, column, down, along = cell
+    row, column, down, along = place
     upper = (1.0 - along) * values[cls, row, column, kind] + along * values[cls, row, column + 1, kind]
     lower = (1.0 - along) * values[cls, row + 1, column, kind] + along * values[cls, row + 1, column + 1, kind]
     return float((1.0 - down) * upper + down * lower)
@@ -164,23 +154,23 @@ def kind_of(asked: int, first: int, second: int) -> int:
 
 
 @inlined
-def waited(values: Vector, cls: int, kind: int, share: float, cell: Cell) -> float:
+def waited(values: Vector, cls: int, kind: int, share: float, place: Place) -> float:
     """Return the value of having waited; share: belief in i_r over b2 where i_r is neither leader."""
     if kind != OTHER:
-        return at(values, cls, kind, cell)
-    return (1.0 - share) * at(values, cls, OTHER, cell) + share * at(values, cls, SECOND, cell)
+        return at(values, cls, kind, place)
+    return (1.0 - share) * at(values, cls, OTHER, place) + share * at(values, cls, SECOND, place)
 
 
 @inlined
-def node_value(
-    values: Vector, ends: float, cls: int, b1: float, b2: float, kind: int, share: float, tables: Tables
-) -> float:
+def node_value(table: ValueTable, cls: int, b1: float, b2: float, kind: int, share: float, tables: Tables) -> float:
     """Return the value of a node, V."""
-    cell = cell_of(b1, b2)
-    pick = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * b1
-    best = max(pick, tables.wait + waited(values, cls, kind, share, cell))
-    best = max(best, tables.point + max(at(values, cls, ASK_FIRST, cell), at(values, cls, ASK_SECOND, cell)))
-    return (1.0 - ends) * best + ends * pick
+    place = place_of(b1, b2)
+    pick = pick_value(b1, tables)
+    best = max(pick, tables.wait + waited(table.values, cls, kind, share, place))
+    best = max(
+        best, tables.point + max(at(table.values, cls, ASK_FIRST, place), at(table.values, cls, ASK_SECOND, place))
+    )
+    return (1.0 - table.ends) * best + table.ends * pick
 
 
 @inlined
@@ -202,47 +192,50 @@ def with_other(classes: Classes, about: int, top: Leading, breaks: Vector, table
 
 @inlined
 def first_table(phase: int, breaks: Vector, tables: Tables) -> int:
-    """Return the index of the table of a phase and the first class of pairs."""
+    """Return the number of the table of a phase and the first class of pairs."""
     return int(tables.alike[phase]) * (len(breaks) + 1)
 
 
 @lean
 def answered_value(
-    table: ValueTable, classes: Classes, top: Leading, about: int, own: float, step: Step, tables: Tables
+    table: ValueTable, classes: Classes, top: Leading, own: float, turn: Turn, came: Came, tables: Tables
 ) -> float:
     """Return the expected value of the nodes after an answer, or silence, about an item (Eq. 6, Table I).
 
     own: belief in the item asked about. An answer scales it against all others alike, so the leaders decide.
     """
-    values, ends, breaks = table.values, table.ends, table.breaks
-    following = tables.following[step.phase, step.kind, step.words, step.seen]
-    base, cls = first_table(following[SILENT], breaks, tables), classes.first_second
+    about, cls, breaks = turn.about, classes.first_second, table.breaks
+    following = tables.following[turn.phase, turn.kind, came.words, came.seen]
+    group = first_table(following[SILENT], breaks, tables)
     if about == NOBODY:
-        return node_value(values, ends, base + cls, top.b1, top.b2, UNASKED, 0.0, tables)
+        return node_value(table, group + cls, top.b1, top.b2, UNASKED, 0.0, tables)
     o1, o2, with_own, without = top.b1, top.b2, classes.other_first, cls
     if about == top.first:
         o1, o2, with_own, without = top.b2, top.b3, cls, classes.second_third
     elif about == top.second:
         o2, with_own, without = top.b3, cls, classes.first_third
-    rate, if_desired = tables.chances[step.phase, step.kind, OTHER_ITEM], tables.chances[step.phase, step.kind, DESIRED]
+    rate, if_desired = (
+        tables.chances[turn.phase, turn.kind, OTHER_DESIRED],
+        tables.chances[turn.phase, turn.kind, DESIRED],
+    )
     total, first = 0.0, SILENT
     if rate == if_desired:  # then silence tells nothing
         share = own / top.b2 if top.b2 > 0.0 else 0.0
         kind = kind_of(about, top.first, top.second)
-        total, first = (1.0 - rate) * node_value(values, ends, base + cls, top.b1, top.b2, kind, share, tables), YES
+        total, first = (1.0 - rate) * node_value(table, group + cls, top.b1, top.b2, kind, share, tables), YES
     for answer in range(first, NO + 1):
         for_own, for_other = answer_weights(answer, rate, if_desired, tables)
         chance = for_own * own + for_other * (1.0 - own)
         if chance <= 0.0:
             continue
-        base = first_table(following[answer], breaks, tables)
+        group = first_table(following[answer], breaks, tables)
         b, q1, q2 = for_own * own / chance, for_other * o1 / chance, for_other * o2 / chance
         if b >= q1:
-            value = node_value(values, ends, base + with_own, b, q1, FIRST, 0.0, tables)
+            value = node_value(table, group + with_own, b, q1, FIRST, 0.0, tables)
         elif b >= q2:
-            value = node_value(values, ends, base + with_own, q1, b, SECOND, 0.0, tables)
+            value = node_value(table, group + with_own, q1, b, SECOND, 0.0, tables)
         else:
-            value = node_value(values, ends, base + without, q1, q2, OTHER, b / q2, tables)
+            value = node_value(table, group + without, q1, q2, OTHER, b / q2, tables)
         total += (1.0 - rate if answer == SILENT else rate) * chance * value
     return total
 
@@ -259,29 +252,29 @@ def closed_form(tables: Tables) -> Vector:
             value = leaf_value(1.0, b1, b2, -1.0, leaf)
             held = leaf_value(1.0, b1, b2, b1 + b2, leaf)
             settled = leaf.gain * leaf.p_truth * (b1 + b2) + leaf.wrong
-            later = max(settled + leaf.patience, leaf.gain * b1 + leaf.wrong)
+            later = max(settled + leaf.until_answer, leaf.gain * b1 + leaf.wrong)
             for kind in range(KINDS):
                 result[0, row, column, kind] = held if kind in (FIRST, SECOND) else value
             for kind in (ASK_FIRST, ASK_SECOND):
-                result[0, row, column, kind] = leaf.p_l * settled + (1.0 - leaf.p_l) * later
+                result[0, row, column, kind] = leaf.p_answer * settled + (1.0 - leaf.p_answer) * later
     return result
 
 
 @lean
 def table_action(belief: Vector, asked: int, phase: int, top: Leading, table: ValueTable, tables: Tables) -> int:
     """Return the table's best action: NOBODY for a wait, an item for a question, n_items and more for a pick."""
-    cls, cell = pair_class(top.first, top.second, table.breaks, tables), cell_of(top.b1, top.b2)
-    cls += first_table(phase, table.breaks, tables)
+    cls, place = pair_class(top.first, top.second, table.breaks, tables), place_of(top.b1, top.b2)
     if tables.begun[phase] == 0:
         return NOBODY
+    cls += first_table(phase, table.breaks, tables)
     share = belief[asked] / top.b2 if asked != NOBODY and top.b2 > 0.0 else 0.0
-    best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * top.b1
+    best = pick_value(top.b1, tables)
     action = len(belief) + top.first
-    wait = tables.wait + waited(table.values, cls, kind_of(asked, top.first, top.second), share, cell)
+    wait = tables.wait + waited(table.values, cls, kind_of(asked, top.first, top.second), share, place)
     if wait > best:
         best, action = wait, NOBODY
     for kind, about in ((ASK_FIRST, top.first), (ASK_SECOND, top.second)):
-        question = tables.point + at(table.values, cls, kind, cell)
+        question = tables.point + at(table.values, cls, kind, place)
         if question > best:
             best, action = question, about
     return action

@@ -1,4 +1,4 @@
-"""The tree of the compiled searches, and from what is known at its root to a decision.
+"""The tree of the compiled searches: what they keep of a node, and its value.
 
 A node at level k has the belief `work.beliefs[k]`; a search adds the values of its samples up in `work.totals[k]` (a
 question about item i at i, a wait at the end).
@@ -8,22 +8,26 @@ A search walks its tree depth first with a cursor a level, `work.cursor`: compil
 
 from __future__ import annotations
 
-import logging
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.random import Generator
 
-from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, lean, uniform
-from fetch_pomdp.core.planners.base import Decision, best_action, checked_asked, unvalued
-from fetch_pomdp.core.planners.kernels import largest
-from fetch_pomdp.core.problem import Problem, Tables
-
-_log = logging.getLogger(__name__)
-_compiled: set[Kernel] = set()  # searches that this process has told its user about
+from fetch_pomdp.core.planners.kernels import (
+    ASKED,
+    NOBODY,
+    WAITED,
+    Came,
+    Turn,
+    hear,
+    largest,
+    phase_after,
+    pick_value,
+    smoothed_mass,
+)
+from fetch_pomdp.core.problem import Tables
+from fetch_pomdp.core.turns import POINTS, WORDS
 
 # Values of a wait, of questions and of picks; standard errors of the first two.
 RootValues = tuple[float, Vector, Vector, float, Vector]
@@ -35,15 +39,17 @@ class Search(NamedTuple):
     depth: int  # actions, 2 or more
     width: int  # sampled observations at a node
     questions: int  # items that may be asked about: all, or 0
-    patient: bool  # leaf `question` instead of `pick`
+    exact: bool  # sums answers exactly, instead of sampling them with the rest
+    leaf_asks: bool  # leaf `question` instead of `pick`
 
-
-Kernel = Callable[[Vector, int, Search, int, Tables], RootValues]
 
 # Where a search stands in one node.
 CURSOR = np.dtype(
     [
         ("asked", np.int64),
+        ("phase", np.int64),
+        ("words", np.int64, (2,)),  # what the sample brought after a wait, and with a question
+        ("seen", np.int64, (2,)),
         ("branch", np.int64),  # which sample, action and answer it is at
         ("offset", np.float64),  # of the evenly spread draws
         ("smoothed", np.float64),  # sum of the node's beliefs, each times its item's smoothing (Eq. 5)
@@ -60,7 +66,7 @@ class Work(NamedTuple):
     """Memory of a search, and its random numbers; a row for each level of the tree."""
 
     beliefs: Vector  # (depth, n_items)
-    heard: Vector  # (depth, n_items), a node's belief after base words and pointing
+    heard: Vector  # (depth, 2 kinds of step, n_items), a node's belief after base words and pointing
     totals: Vector  # (depth, n_items + 1), sums of values over samples
     squares: Vector  # (depth, n_items + 1), sums of their squares
     cursor: Any  # (depth,) of CURSOR
@@ -68,22 +74,22 @@ class Work(NamedTuple):
 
 
 @compiled
-def workspace(belief: Vector, asked: int, depth: int, seed: int, tables: Tables) -> Work:
-    """Return the memory of a search from a belief and a last question."""
+def workspace(belief: Vector, asked: int, phase: int, depth: int, seed: int, tables: Tables) -> Work:
+    """Return the memory of a search from a belief, a last question and a phase."""
     count = len(belief)
-    chances, values = np.empty((2, depth, count)), np.empty((2, depth, count + 1))
+    beliefs, values = np.empty((depth, count)), np.empty((2, depth, count + 1))
     state = np.empty(1, dtype=np.uint64)
     state[0] = seed
     cursor = np.empty(depth, CURSOR)
-    work = Work(chances[0], chances[1], values[0], values[1], cursor, state)
+    work = Work(beliefs, np.empty((depth, 2, count)), values[0], values[1], cursor, state)
     for item in range(count):
         work.beliefs[0, item] = belief[item]
-    enter(0, asked, work, tables)
+    enter(0, asked, phase, work, tables)
     return work
 
 
 @inlined
-def enter(level: int, asked: int, work: Work, tables: Tables) -> None:
+def enter(level: int, asked: int, phase: int, work: Work, tables: Tables) -> None:
     """Start on a node whose belief is in place."""
     for action in range(work.totals.shape[1]):
         work.totals[level, action] = 0.0
@@ -91,18 +97,48 @@ def enter(level: int, asked: int, work: Work, tables: Tables) -> None:
     cursor = work.cursor
     cursor["sums"][level] = 0.0
     cursor["asked"][level] = asked
+    cursor["phase"][level] = phase
     cursor["branch"][level] = 0
     cursor["offset"][level] = uniform(work.state)
-    smoothed = 0.0
-    for item in range(work.beliefs.shape[1]):
-        smoothed += work.beliefs[level, item] * tables.smoothing[item]
-    cursor["smoothed"][level] = smoothed
+    cursor["smoothed"][level] = smoothed_mass(work.beliefs[level], tables)
+
+
+@inlined
+def draw(level: int, desired: int, work: Work, tables: Tables) -> None:
+    """Draw what a node's step brings if an item is desired, after a wait and with a question, from the same numbers."""
+    cursor, phase = work.cursor, work.cursor["phase"][level]
+    smoothed, before = cursor["smoothed"][level], work.state[0]
+    for kind in range(1 if alike(phase, tables) else 2):
+        work.state[0] = before
+        turn = Turn(NOBODY, phase, kind)
+        came = hear(work.beliefs[level], smoothed, desired, turn, work.heard[level, kind], work.state, tables)
+        cursor["words"][level, kind], cursor["seen"][level, kind] = came.words, came.seen
+
+
+@inlined
+def alike(phase: int, tables: Tables) -> bool:
+    """Whether words and pointing are as likely after a wait as with a question, so that one sample serves both."""
+    wait, ask = tables.chances[phase, WAITED], tables.chances[phase, ASKED]
+    return bool(wait[WORDS] == ask[WORDS] and wait[POINTS] == ask[POINTS])
+
+
+@inlined
+def row_of(turn: Turn, tables: Tables) -> int:
+    """Return which of a node's two samples is that of a step."""
+    return WAITED if alike(turn.phase, tables) else turn.kind
+
+
+@inlined
+def following_phase(level: int, turn: Turn, answer: int, work: Work, tables: Tables) -> int:
+    """Return the phase that an answer leads to after a node's sample."""
+    row = row_of(turn, tables)
+    return phase_after(turn, Came(work.cursor["words"][level, row], work.cursor["seen"][level, row]), answer, tables)
 
 
 @lean
 def best_of(level: int, search: Search, work: Work, tables: Tables) -> float:
     """Return the value of a node whose totals are complete: the best of picks, a wait and questions."""
-    best = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * largest(work.beliefs[level])
+    best = pick_value(largest(work.beliefs[level]), tables)
     best = max(best, tables.wait + float(work.totals[level, -1]) / search.width)
     for item in range(search.questions):
         best = max(best, tables.point + float(work.totals[level, item]) / search.width)
@@ -119,22 +155,5 @@ def root_values(search: Search, work: Work, tables: Tables) -> RootValues:
         means[action] = mean + (tables.point if action < count else tables.wait)
         errors[action] = math.sqrt(spread / max(search.width - 1, 1))
     for item in range(count):
-        belief[item] = tables.pick_wrong + (tables.pick_correct - tables.pick_wrong) * belief[item]
+        belief[item] = pick_value(belief[item], tables)
     return float(means[count]), means[:count], belief, float(errors[count]), errors[:count]
-
-
-def searched(
-    kernel: Kernel, problem: Problem, belief: Belief, asked: int | None, search: Search, rng: Generator
-) -> Decision:
-    """Return the decision of a search of two actions or more; questions that it may not ask are worth NaN."""
-    if kernel not in _compiled:
-        _compiled.add(kernel)
-        _log.info("loading the compiled planner; the first time after installation it is compiled, for some seconds")
-    probabilities = belief.probabilities
-    about = checked_asked(probabilities, asked, problem)
-    seed = int(rng.random() * 2.0**53)
-    wait, point, pick, wait_error, point_errors = kernel(probabilities, about, search, seed, problem.tables)
-    if search.questions == 0:
-        point = unvalued(problem)
-        return Decision(best_action(wait, point, pick), wait, point, pick, wait_error)
-    return Decision(best_action(wait, point, pick), wait, point, pick, wait_error, point_errors)
