@@ -118,7 +118,8 @@ class Agent:
         if passes is not None and isinstance(planner, BudgetPlanner):
             planner = planner.with_passes(passes)
         decision = planner.decide(self.problem, self._belief, self.asked, rng=rng)
-        return dataclasses.replace(decision, explanation=explain(decision, self._belief, self._evidence))
+        why = explain(decision, self._belief, self._evidence, self.scene)
+        return dataclasses.replace(decision, explanation=why)
 
     def act(self) -> Action:
         """Decide, and go on as if the robot had done it."""

@@ -97,7 +97,7 @@ function believe(shares, provisional) {
 function belief(message) {
   if (!message.belief) return;
   believe(message.belief, message.provisional);
-  if (!message.provisional) mind.conclude(message.belief);
+  if (!message.provisional) mind.conclude(message.belief, message.even);
 }
 
 function decided(message) {

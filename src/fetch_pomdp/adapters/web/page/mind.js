@@ -1,8 +1,6 @@
 // What the robot thinks: why it acts, what each action is worth, and the story so far.
 
-import { allEqual } from "./shares.js";
-import { decimal, join, percent, text } from "./texts.js";
-import { why } from "./why.js";
+import { decimal, join, percent, phrase, text } from "./texts.js";
 
 const MOST_ROWS = 12;
 
@@ -11,7 +9,6 @@ export class Mind {
     this.body = document.querySelector("#values tbody");
     this.log = document.querySelector("#log");
     this.decided = null;
-    this.belief = null;
   }
 
   set(scene) {
@@ -28,18 +25,17 @@ export class Mind {
     document.querySelector("#waiting").textContent = "";
     document.querySelector("#why").textContent = text("nothing");
     this.log.replaceChildren();
-    this.decided = this.belief = null;
+    this.decided = null;
   }
 
   believe(belief) {
-    this.belief = belief;
     for (const [id, { cells }] of this.rows) cells[0].textContent = percent(belief[id]);
   }
 
   decide(message) {
     this.decided = message;
     if (!message.values) return;
-    document.querySelector("#why").textContent = why(message, this.belief);
+    if (message.phrase) document.querySelector("#why").textContent = sentence(message.phrase);
     for (const [id, { row, cells }] of this.rows) {
       row.classList.toggle("about", id === message.item);
       this.#value(cells[1], message.values.point[id], message.action === "point" && id === message.item);
@@ -66,17 +62,21 @@ export class Mind {
   }
 
   // Add to the last line what it did to the belief.
-  conclude(belief) {
+  conclude(belief, even) {
     if (!this.open || !belief) return;
     const effect = document.createElement("em");
-    effect.textContent = ` → ${leaders(belief)}`;
+    effect.textContent = ` → ${even ? text("evenly") : leaders(belief)}`;
     this.open.append(effect);
     this.open = null;
   }
 }
 
+function sentence(why) {
+  const words = phrase(why);
+  return `${words[0].toUpperCase()}${words.slice(1)}.`;
+}
+
 function leaders(belief) {
-  if (allEqual(belief)) return text("evenly");
   const sorted = Object.entries(belief).sort((one, other) => other[1] - one[1]);
   const leading = sorted.filter(([, share]) => share > sorted[0][1] / 2), named = leading.slice(0, 3).map(([id, share]) => `${id} ${percent(share)}`);
   if (leading.length > 3) named.push(text("more", { number: leading.length - 3 }));

@@ -41,6 +41,26 @@ export function decimal(number) {
   return new Intl.NumberFormat(language, { minimumFractionDigits: 2, maximumFractionDigits: 2 }).format(number).replace("-", "−");
 }
 
+// A sentence of the server, {key, values}, in the page's language. A value is an item's id, a number as English writes it,
+// or a phrase itself.
+export function phrase({ key, values }) {
+  return text(key, Object.fromEntries(Object.entries(values).map(([name, value]) => [name, filled(value)])));
+}
+
+function filled(value) {
+  if (typeof value === "string") return value;
+  return "number" in value ? localised(value.number) : phrase(value);
+}
+
+// "1,234.5%" with the marks of the page's language.
+function localised(number) {
+  const parts = new Intl.NumberFormat(language, { style: "percent", minimumFractionDigits: 1 }).formatToParts(1234.5);
+  const mark = (type) => parts.find((part) => part.type === type).value;
+  const space = parts.find((part) => part.type === "literal")?.value ?? "";
+  const marks = { ",": mark("group"), ".": mark("decimal"), "%": space + mark("percentSign"), "-": "−" };
+  return number.replace(/[,.%-]/g, (each) => marks[each]);
+}
+
 export function join(list) {
   return new Intl.ListFormat(language).format(list);
 }
