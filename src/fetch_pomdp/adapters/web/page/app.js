@@ -1,13 +1,13 @@
 // The page: what the server tells is shown, what the person says and shows is sent.
 
-import { Arm } from "./arm.js";
+import { Arm } from "./arm-pointing.js";
 import { Connection } from "./connection.js";
 import { Editor } from "./editor.js";
 import { vector } from "./geometry.js";
 import { Labels } from "./labels.js";
-import { Mind } from "./mind.js";
-import { Speech } from "./speech.js";
-import { Stage } from "./stage.js";
+import { Mind } from "./panels.js";
+import { Speech } from "./microphone.js";
+import { Stage } from "./table-view.js";
 import { Study } from "./study.js";
 import { chosenLanguage, english, isEnglish, setLanguage, text } from "./texts.js";
 

@@ -1,7 +1,7 @@
 // A study: from consent to completion code, and each trial from the ring around an item to what the robot brought.
 
 import { described } from "./names.js";
-import { inLanguage, Paper } from "./paper.js";
+import { inLanguage, Paper } from "./study-pages.js";
 import { text } from "./texts.js";
 
 const $ = (selector) => document.querySelector(selector);

@@ -3,7 +3,7 @@
 import * as THREE from "./vendor/three.module.min.js";
 import { frame, outline, place, section, vector } from "./geometry.js";
 import { Robot } from "./robot.js";
-import { dispose, thing } from "./things.js";
+import { dispose, thing } from "./item-meshes.js";
 
 const ACCENT = 0x1d6f6a, RING = 0xc2410c;
 const still = matchMedia("(prefers-reduced-motion: reduce)");
