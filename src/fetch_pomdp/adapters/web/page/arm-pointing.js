@@ -2,10 +2,15 @@
 
 import { arms, fit, judge, LARGEST, sigma, Stillness } from "./calibration.js";
 import { Camera } from "./camera.js";
+import { find, findAll } from "./dom.js";
 import { vector } from "./geometry.js";
 import { decimal, text } from "./texts.js";
 
-const $ = (selector) => document.querySelector(selector);
+/** @import { Vector3 } from "three" */
+/** @import { Pair, Sample, Side } from "./calibration.js" */
+/** @import { TableView } from "./table-view.js" */
+/** @typedef {(place: Vector3 | null) => void} Place */
+
 const SLOW = 5, QUICK = 6; // pictures a second below which it is said, and above which no more
 const GONE = 3000; // ms without a person after which it is said
 const HELD = 300; // ms for which an arm must be up, and not on its way, before it points
@@ -14,41 +19,58 @@ const HUNG = 1000; // ms without a picture after which an arm no longer points
 const OUTSIDE = 1.25; // of the picture's half: an arm that points farther out points at something else
 const SPREAD = 0.12; // m, at least, of the marks to each side of the items' middle
 
-export class Arm {
+export class ArmPointing {
+  /** @type {number | null} */
+  sigma = null; // rad, of a calibrated arm
+  /** @type {Sample[]} */
   #samples = [];
-  #marks = null; // while calibrating: places on the table (Vector3)
+  /** @type {Vector3[] | null} */
+  #marks = null; // while calibrating: places on the table
+  /** @type {((hand: Pair) => Pair) | null} */
   #map = null;
+  /** @type {Side | null} */
   #side = null; // the arm that calibrated
-  #still = null;
-  #state = null;
+  #still = new Stillness();
+  /** @type {string | null} */
+  #state = null; // a text's key
+  /** @type {Record<string, string | number>} */
   #values = {};
+  /** @type {Record<"left" | "top" | "width" | "height", number> | null} */
   #shape = null; // of the picture, when it was calibrated
+  /** @type {number | null} */
   #upSince = null;
   #lowered = false; // since the calibration: an arm that was up for that does not point yet
-  #before = null; // time and place of the hand in the picture before
+  /** @type {{ now: number, hand: Pair } | null} */
+  #before = null; // the hand in the picture before
+  #pointing = false;
   #personAt = 0;
   #rate = QUICK;
+  /** @type {number | null} */
   #lastAt = null;
 
-  // point: called with the place that is pointed at; release: when nothing is any more; calibrated: when
-  // the arm has another spread, `sigma`, with which an interaction is to begin.
-  constructor(stage, point, release, calibrated) {
-    Object.assign(this, { stage, point, release, calibrated, sigma: null, pointing: false });
-    this.camera = new Camera($("#preview"), (joints, aspect) => this.#saw(joints, aspect), (reason) => this.#failed(reason));
-    $("#arm-choice").hidden = !stage || !navigator.mediaDevices;
-    for (const choice of document.querySelectorAll("[name=pointing]")) choice.addEventListener("change", () => this.#choose(choice.value === "camera"));
-    $("#calibrate").addEventListener("click", () => this.#begin());
-    $("#camera-off").addEventListener("click", () => this.#off());
+  /**
+   * @param {TableView | null} view without one, an arm cannot point
+   * @param {{ onPoint: Place, onRelease: () => void, onCalibrate: () => void }} listeners called with the place that is pointed
+   *   at, when nothing is any more, and when the arm has another spread, `sigma`, with which an interaction is to begin
+   */
+  constructor(view, listeners) {
+    this.view = view;
+    this.listeners = listeners;
+    this.camera = new Camera(find("#preview", HTMLCanvasElement), (joints, aspect) => this.#saw(joints, aspect), (reason) => this.#failed(reason));
+    find("#arm-choice").hidden = !view || !navigator.mediaDevices;
+    for (const choice of findAll("[name=pointing]", HTMLInputElement)) choice.addEventListener("change", () => this.#choose(choice.value === "camera"));
+    find("#calibrate").addEventListener("click", () => this.#begin());
+    find("#camera-off").addEventListener("click", () => this.#off());
     setInterval(() => this.#watch(), HUNG / 2);
   }
 
-  // The language has changed.
-  speak() {
+  /** Say it again, in a language that was chosen meanwhile. */
+  translate() {
     if (this.#state) this.#say(this.#state, this.#values);
-    if ($("#camera-slow").textContent) $("#camera-slow").textContent = text("arm_slow");
+    if (find("#camera-slow").textContent) find("#camera-slow").textContent = text("arm_slow");
   }
 
-  // The table is another one.
+  /** The table is another one. */
   forget() {
     this.sigma = null;
     if (!this.#map && !this.#marks) return;
@@ -56,23 +78,24 @@ export class Arm {
     this.#say("arm_moved");
   }
 
-  // Put the ring where the picture has the mark.
+  /** Put the ring where the picture has the mark. */
   follow() {
-    $("#mark").hidden = !this.#marks;
-    if (!this.#marks) return;
-    const { x, y } = this.stage.seen(this.#marks[this.#samples.length]);
-    $("#mark").style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    find("#mark").hidden = !this.#marks;
+    if (!this.#marks || !this.view) return;
+    const { x, y } = this.view.seen(this.#marks[this.#samples.length]);
+    find("#mark").style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 
+  /** @param {boolean} camera whether it is to be used, instead of the mouse */
   async #choose(camera) {
-    $("#camera").hidden = !camera;
+    find("#camera").hidden = !camera;
     this.#drop();
     if (camera) {
       this.#say("arm_opening");
       this.#personAt = 0;
       this.#lastAt = null;
       this.#rate = QUICK;
-      $("#camera-slow").textContent = "";
+      find("#camera-slow").textContent = "";
       await this.camera.open();
     } else {
       this.camera.close();
@@ -81,25 +104,28 @@ export class Arm {
   }
 
   #off() {
-    const mouse = $("[name=pointing][value=mouse]");
+    const mouse = find("[name=pointing][value=mouse]", HTMLInputElement);
     mouse.checked = true;
     mouse.dispatchEvent(new Event("change"));
-    $("#options").focus();
+    find("#options").focus();
   }
 
+  /** @param {string | null} reason */
   #failed(reason) {
     this.#drop();
     if (reason === null) this.#say("arm_lost");
     else this.#say("arm_denied", { reason });
   }
 
+  /** @param {string} key @param {Record<string, string | number>} values */
   #say(key, values = {}) {
     this.#state = key;
     this.#values = values;
     const line = text(key, values);
-    if ($("#camera-state").textContent !== line) $("#camera-state").textContent = line;
-    $("#calibrate").disabled = !this.camera.on || key === "arm_opening";
-    $("#calibrate").textContent = text(this.#marks || this.#map ? "calibrate_again" : "calibrate");
+    if (find("#camera-state").textContent !== line) find("#camera-state").textContent = line;
+    const button = find("#calibrate", HTMLButtonElement);
+    button.disabled = !this.camera.on || key === "arm_opening";
+    button.textContent = text(this.#marks || this.#map ? "calibrate_again" : "calibrate");
   }
 
   #drop() {
@@ -109,39 +135,48 @@ export class Arm {
     this.follow();
   }
 
-  // Calibration: marks in two rows of three over the items.
-
+  /** Begin a calibration: marks in two rows of three over the items. */
   #begin() {
+    if (!this.view) return;
     this.#drop();
-    const { middle, ahead, right, height } = this.stage.frame;
-    const reach = (axis) => Math.max(SPREAD, ...this.stage.scene.items.map((item) => Math.abs(vector(item.position).sub(middle).dot(axis))));
+    const { scene, frame: { middle, ahead, right, height } } = this.view.table;
+    /** @param {Vector3} axis */
+    const reach = (axis) => Math.max(SPREAD, ...scene.items.map((item) => Math.abs(vector(item.position).sub(middle).dot(axis))));
     const [wide, deep] = [reach(right), reach(ahead)];
     this.#marks = [[-1, 1], [0, 1], [1, 1], [1, -1], [0, -1], [-1, -1]].map(([x, y]) => middle.clone().addScaledVector(right, x * wide).addScaledVector(ahead, y * deep).setZ(height));
     this.#shape = this.#canvas();
     this.#still = new Stillness();
-    this.#ask();
+    this.#ask(this.#marks);
   }
 
-  #ask() {
+  /** @param {Vector3[]} marks */
+  #ask(marks) {
     this.follow();
-    this.#say("arm_point", { number: this.#samples.length + 1, all: this.#marks.length });
+    this.#say("arm_point", { number: this.#samples.length + 1, all: marks.length });
   }
 
-  #calibrate(side, hand) {
-    if (side && this.#side && side !== this.#side) return this.#say("arm_other");
+  /** @param {TableView} view @param {Vector3[]} marks @param {{ side: Side | null, hand: Pair | null }} raised */
+  #calibrate(view, marks, { side, hand }) {
+    if (side && this.#side && side !== this.#side) {
+      this.#say("arm_other");
+      return;
+    }
     const taken = this.#still.take(performance.now(), hand);
-    if (!taken) return this.#ask();
-    this.#side = side;
-    this.#samples.push({ hand: taken, place: this.#placeOf(this.#marks[this.#samples.length]) });
-    if (this.#samples.length < this.#marks.length) return this.#ask();
-    return this.#conclude();
+    if (taken) {
+      this.#side = side;
+      this.#samples.push({ hand: taken, place: this.#placeOf(view, marks[this.#samples.length]) });
+    }
+    if (this.#samples.length < marks.length) this.#ask(marks);
+    else this.#conclude(view, marks);
   }
 
-  #conclude() {
-    const head = vector(this.stage.scene.head), marks = this.#marks;
+  /** @param {TableView} view @param {Vector3[]} marks */
+  #conclude(view, marks) {
+    const { head } = view.table;
+    /** @param {Vector3} place */
     const way = (place) => place.clone().sub(head);
     const judged = judge(this.#samples, (place, index) => {
-      const at = this.#tableAt(place);
+      const at = this.#tableAt(view, place);
       return at ? way(at).angleTo(way(marks[index])) : Math.PI;
     });
     const found = sigma(judged);
@@ -151,33 +186,37 @@ export class Arm {
     this.#lowered = false;
     this.#samples = [];
     const error = decimal(judged.error);
-    if (found !== null) this.#say("arm_good", { error: decimal(found), degrees: Math.round((found * 180) / Math.PI) });
+    if (found !== null) this.#say("arm_good", good(found));
     else this.#say(judged.error > LARGEST ? "arm_coarse" : "arm_blind", { error, most: decimal(LARGEST), guess: decimal(judged.guess) });
     const before = this.sigma;
     this.sigma = found;
-    if (found !== null && found !== before) this.calibrated();
+    if (found !== null && found !== before) this.listeners.onCalibrate();
   }
 
   // Places in the picture, from -1 to 1 each way, and the table's beneath them.
 
   #canvas() {
-    const { left, top, width, height } = $("#view").getBoundingClientRect();
+    const { left, top, width, height } = find("#view").getBoundingClientRect();
     return { left, top, width, height };
   }
 
-  #placeOf(point) {
-    const { x, y } = this.stage.seen(point), { width, height } = this.#canvas();
+  /** @param {TableView} view @param {Vector3} point @returns {Pair} */
+  #placeOf(view, point) {
+    const { x, y } = view.seen(point), { width, height } = this.#canvas();
     return [(2 * x) / width - 1, (2 * y) / height - 1];
   }
 
-  #tableAt([x, y]) {
+  /** @param {TableView} view @param {Pair} place */
+  #tableAt(view, [x, y]) {
     const { width, height } = this.#canvas();
-    return this.stage.at(((x + 1) / 2) * width, ((y + 1) / 2) * height);
+    return view.at(((x + 1) / 2) * width, ((y + 1) / 2) * height);
   }
 
   // What is seen.
 
+  /** @param {Joint[] | null} joints @param {number} aspect */
   #saw(joints, aspect) {
+    if (!this.view) return;
     const now = performance.now(), { person, raised, hands } = arms(joints, aspect);
     this.#pace(now);
     if (person || !this.#personAt) this.#personAt = now;
@@ -188,34 +227,40 @@ export class Arm {
     } else if (!person && now - this.#personAt > GONE) {
       this.#end();
       this.#say("arm_nobody");
-    } else if (this.#marks) this.#calibrate(side, side && hands[side]);
-    else this.#use(now, side === this.#side ? hands[side] : null);
+    } else if (this.#marks) this.#calibrate(this.view, this.#marks, { side, hand: side && hands[side] || null });
+    else this.#use(this.view, now, side && side === this.#side && hands[side] || null);
   }
 
+  /** @param {number} now ms */
   #pace(now) {
     if (this.#lastAt !== null) this.#rate += 0.1 * (1000 / Math.max(now - this.#lastAt, 1) - this.#rate);
     this.#lastAt = now;
-    if (this.#rate > QUICK) $("#camera-slow").textContent = "";
-    else if (this.#rate < SLOW) $("#camera-slow").textContent = text("arm_slow");
+    if (this.#rate > QUICK) find("#camera-slow").textContent = "";
+    else if (this.#rate < SLOW) find("#camera-slow").textContent = text("arm_slow");
   }
 
-  #use(now, hand) {
-    if (!this.#map) {
-      if (!["arm_coarse", "arm_blind", "arm_moved"].includes(this.#state)) this.#say("arm_begin");
+  /** @param {TableView} view @param {number} now ms @param {Pair | null} hand */
+  #use(view, now, hand) {
+    if (!this.#map || this.sigma === null) {
+      if (!["arm_coarse", "arm_blind", "arm_moved"].includes(this.#state ?? "")) this.#say("arm_begin");
       return;
     }
-    if (this.#moved()) return this.forget();
+    if (this.#moved()) {
+      this.forget();
+      return;
+    }
     const place = hand && this.#map(hand), fast = this.#fast(now, hand);
     if (!hand) this.#lowered = true;
     if (!place || fast || !this.#lowered || place.some((part) => Math.abs(part) > OUTSIDE)) this.#end();
     else {
       this.#upSince ??= now;
-      this.pointing = now - this.#upSince >= HELD;
-      if (this.pointing) this.point(this.#tableAt(place));
+      this.#pointing = now - this.#upSince >= HELD;
+      if (this.#pointing) this.listeners.onPoint(this.#tableAt(view, place));
     }
-    this.#say("arm_good", { error: decimal(this.sigma), degrees: Math.round((this.sigma * 180) / Math.PI) });
+    this.#say("arm_good", good(this.sigma));
   }
 
+  /** @param {number} now ms @param {Pair | null} hand */
   #fast(now, hand) {
     const before = this.#before;
     this.#before = hand && { now, hand };
@@ -223,23 +268,27 @@ export class Arm {
     return Math.hypot(hand[0] - before.hand[0], hand[1] - before.hand[1]) / (now - before.now) > FAST / 1000;
   }
 
-  // A picture elsewhere on the screen is pointed at otherwise.
+  /** A picture elsewhere on the screen is pointed at otherwise. */
   #moved() {
-    const now = this.#canvas();
-    return Object.entries(this.#shape).some(([side, length]) => Math.abs(now[side] - length) > 0.05 * this.#shape.width);
+    const now = this.#canvas(), before = this.#shape;
+    if (!before) return false;
+    return /** @type {const} */ (["left", "top", "width", "height"]).some((side) => Math.abs(now[side] - before[side]) > 0.05 * before.width);
   }
 
   #end() {
     this.#upSince = null;
-    if (this.pointing) this.release();
-    this.pointing = false;
+    if (this.#pointing) this.listeners.onRelease();
+    this.#pointing = false;
   }
 
-  // An arm does not point on while no pictures come.
+  /** An arm does not point on while no pictures come. */
   #watch() {
     if (!this.camera.on || this.#lastAt === null || performance.now() - this.#lastAt < HUNG) return;
     this.#rate = 0;
-    $("#camera-slow").textContent = text("arm_slow");
+    find("#camera-slow").textContent = text("arm_slow");
     this.#end();
   }
 }
+
+/** @param {number} spread rad */
+const good = (spread) => ({ error: decimal(spread), degrees: Math.round((spread * 180) / Math.PI) });

@@ -2,13 +2,18 @@
 
 import * as THREE from "./vendor/three.module.min.js";
 
+/** @import { Point3, Scene } from "./messages.js" */
+/** @import { PerspectiveCamera, Vector3 } from "three" */
+/** @typedef {{ middle: Vector3, ahead: Vector3, right: Vector3, height: number }} Frame */
+
 const WIDEST = 46, NARROWEST = 13; // degrees, of the camera's height
 const MARGIN = 0.17; // m, of a table around its items
 const NEAREST = 1.55; // m, of the camera to the middle of the items: a table at the far end of a room is seen from nearer
 
+/** @param {Point3} point */
 export const vector = (point) => new THREE.Vector3(...point);
 
-// The horizontal way from the person to the middle of the items, and that middle.
+/** The horizontal way from the person to the middle of the items, and that middle. @param {Scene} scene @returns {Frame} */
 export function frame(scene) {
   const middle = scene.items.reduce((sum, item) => sum.add(vector(item.position)), new THREE.Vector3()).divideScalar(scene.items.length);
   const ahead = middle.clone().sub(vector(scene.head)).setZ(0);
@@ -17,7 +22,10 @@ export function frame(scene) {
   return { middle, ahead, right: new THREE.Vector3(ahead.y, -ahead.x, 0), height: Math.min(...scene.items.map((item) => item.position[2])) };
 }
 
-// The outline of everything within `margin` of the items' hull: in each direction the farthest item, and on.
+/**
+ * The outline of everything within `margin` (m) of the items' hull: in each direction the farthest item, and on.
+ * @param {Scene} scene
+ */
 export function outline(scene, margin = MARGIN) {
   const points = [];
   for (let step = 0; step < 120; step += 1) {
@@ -28,8 +36,13 @@ export function outline(scene, margin = MARGIN) {
   return points;
 }
 
-// Put the camera on the person's side, as near as lets it see all `points` (Vector3).
-export function place(camera, { middle, ahead }, head, points, aspect) {
+/**
+ * Put the camera on the person's side, as near as lets it see all points; `aspect`: width over height of the picture.
+ * @param {PerspectiveCamera} camera
+ * @param {Frame} frame
+ * @param {{ head: Vector3, points: Vector3[], aspect: number }} seen
+ */
+export function place(camera, { middle, ahead }, { head, points, aspect }) {
   const near = Math.min(NEAREST, middle.clone().sub(head).setZ(0).length());
   for (let back = 0; back <= 6; back += 0.1) {
     camera.position.copy(middle).addScaledVector(ahead, -near - back).setZ(head.z + 0.1 + 0.3 * back);
@@ -45,7 +58,12 @@ export function place(camera, { middle, ahead }, head, points, aspect) {
   camera.updateMatrixWorld(true);
 }
 
-// Turn the camera so that the points are in its middle; return the angle (degrees) it takes to see them all.
+/**
+ * Turn the camera so that the points are in its middle; return the angle (degrees) it takes to see them all.
+ * @param {PerspectiveCamera} camera
+ * @param {Vector3[]} points
+ * @param {number} aspect
+ */
 function aimed(camera, points, aspect) {
   const target = points.reduce((sum, point) => sum.add(point), new THREE.Vector3()).divideScalar(points.length);
   let tangent = Infinity;
@@ -62,7 +80,12 @@ function aimed(camera, points, aspect) {
   return (2 * Math.atan(tangent * 1.07) * 180) / Math.PI;
 }
 
-// The section of a cone of half-angle `angle` (rad) from a head around a target, through the target: a circle, as points.
+/**
+ * The section of a cone of half-angle `angle` (rad) from a head around a target, through the target: a circle, as points.
+ * @param {Vector3} head
+ * @param {Vector3} target
+ * @param {number} angle
+ */
 export function section(head, target, angle, steps = 72) {
   const axis = target.clone().sub(head), radius = axis.length() * Math.tan(angle);
   axis.normalize();

@@ -10,6 +10,7 @@ class Pcm extends AudioWorkletProcessor {
   #before = 0; // the last sample of the block before
   #low = 0;
 
+  /** Take a block of the first input's first channel; true asks for more. @param {Float32Array[][]} inputs */
   process([[block]]) {
     if (!block) return true;
     const step = sampleRate / RATE;
@@ -25,6 +26,7 @@ class Pcm extends AudioWorkletProcessor {
     return true;
   }
 
+  /** @param {number} sample from -1 to 1 */
   #put(sample) {
     this.#chunk[this.#filled] = Math.max(-1, Math.min(1, sample)) * 32767;
     this.#filled += 1;
