@@ -1,47 +1,33 @@
 // Pointing with an arm before the webcam: calibration, what is said of it, and where the arm points then.
 
-import { arms, fit, judge, LARGEST, sigma, Stillness } from "./calibration.js";
+import { MarkedSamples, RaisedArm } from "./arm-gesture.js";
+import { arms, fit, judge, LARGEST, sigma } from "./calibration.js";
 import { Camera } from "./camera.js";
 import { find, findAll } from "./dom.js";
 import { vector } from "./geometry.js";
 import { decimal, text } from "./texts.js";
 
 /** @import { Vector3 } from "three" */
-/** @import { Pair, Sample, Side } from "./calibration.js" */
+/** @import { Pair, Side } from "./calibration.js" */
 /** @import { TableView } from "./table-view.js" */
-/** @typedef {(place: Vector3 | null) => void} Place */
+/** @typedef {Record<"left" | "top" | "width" | "height", number>} Rectangle in pixels */
+/** @typedef {{ marks: Vector3[], taken: MarkedSamples, shape: Rectangle }} Calibration that goes on; shape: of the picture of the table */
+/** @typedef {{ map: (hand: Pair) => Pair, side: Side | null, shape: Rectangle, gesture: RaisedArm }} CalibratedArm */
 
 const SLOW = 5, QUICK = 6; // pictures a second below which it is said, and above which no more
 const GONE = 3000; // ms without a person after which it is said
-const HELD = 300; // ms for which an arm must be up, and not on its way, before it points
-const FAST = 1.5; // shoulder widths a second: a hand that is as fast is on its way
 const HUNG = 1000; // ms without a picture after which an arm no longer points
-const OUTSIDE = 1.25; // of the picture's half: an arm that points farther out points at something else
 const SPREAD = 0.12; // m, at least, of the marks to each side of the items' middle
 
 export class ArmPointing {
   /** @type {number | null} */
   sigma = null; // rad, of a calibrated arm
-  /** @type {Sample[]} */
-  #samples = [];
-  /** @type {Vector3[] | null} */
-  #marks = null; // while calibrating: places on the table
-  /** @type {((hand: Pair) => Pair) | null} */
-  #map = null;
-  /** @type {Side | null} */
-  #side = null; // the arm that calibrated
-  #still = new Stillness();
-  /** @type {string | null} */
-  #state = null; // a text's key
-  /** @type {Record<string, string | number>} */
-  #values = {};
-  /** @type {Record<"left" | "top" | "width" | "height", number> | null} */
-  #shape = null; // of the picture, when it was calibrated
-  /** @type {number | null} */
-  #upSince = null;
-  #lowered = false; // since the calibration: an arm that was up for that does not point yet
-  /** @type {{ now: number, hand: Pair } | null} */
-  #before = null; // the hand in the picture before
+  /** @type {Calibration | null} */
+  #calibration = null;
+  /** @type {CalibratedArm | null} */
+  #arm = null;
+  /** @type {{ key: string, values: Record<string, string | number> } | null} */
+  #said = null;
   #pointing = false;
   #personAt = 0;
   #rate = QUICK;
@@ -50,7 +36,7 @@ export class ArmPointing {
 
   /**
    * @param {TableView | null} view without one, an arm cannot point
-   * @param {{ onPoint: Place, onRelease: () => void, onCalibrate: () => void }} listeners called with the place that is pointed
+   * @param {{ onPoint: (place: Vector3 | null) => void, onRelease: () => void, onCalibrate: () => void }} listeners called with the place that is pointed
    *   at, when nothing is any more, and when the arm has another spread, `sigma`, with which an interaction is to begin
    */
   constructor(view, listeners) {
@@ -66,24 +52,25 @@ export class ArmPointing {
 
   /** Say it again, in a language that was chosen meanwhile. */
   translate() {
-    if (this.#state) this.#say(this.#state, this.#values);
+    if (this.#said) this.#say(this.#said.key, this.#said.values);
     if (find("#camera-slow").textContent) find("#camera-slow").textContent = text("arm_slow");
   }
 
   /** The table is another one. */
   forget() {
     this.sigma = null;
-    if (!this.#map && !this.#marks) return;
+    if (!this.#arm && !this.#calibration) return;
     this.#drop();
     this.#say("arm_moved");
   }
 
   /** Put the ring where the picture has the mark. */
   follow() {
-    find("#mark").hidden = !this.#marks;
-    if (!this.#marks || !this.view) return;
-    const { x, y } = this.view.seen(this.#marks[this.#samples.length]);
-    find("#mark").style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    const mark = find("#mark");
+    mark.hidden = !this.#calibration;
+    if (!this.#calibration || !this.view) return;
+    const { marks, taken } = this.#calibration, { x, y } = this.view.seen(marks[taken.samples.length]);
+    mark.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 
   /** @param {boolean} camera whether it is to be used, instead of the mouse */
@@ -99,7 +86,7 @@ export class ArmPointing {
       await this.camera.open();
     } else {
       this.camera.close();
-      this.#state = this.sigma = null; // from the next interaction on
+      this.#said = this.sigma = null; // from the next interaction on
     }
   }
 
@@ -119,18 +106,16 @@ export class ArmPointing {
 
   /** @param {string} key @param {Record<string, string | number>} values */
   #say(key, values = {}) {
-    this.#state = key;
-    this.#values = values;
+    this.#said = { key, values };
     const line = text(key, values);
     if (find("#camera-state").textContent !== line) find("#camera-state").textContent = line;
     const button = find("#calibrate", HTMLButtonElement);
     button.disabled = !this.camera.on || key === "arm_opening";
-    button.textContent = text(this.#marks || this.#map ? "calibrate_again" : "calibrate");
+    button.textContent = text(this.#calibration || this.#arm ? "calibrate_again" : "calibrate");
   }
 
   #drop() {
-    this.#marks = this.#map = this.#side = null;
-    this.#samples = [];
+    this.#calibration = this.#arm = null;
     this.#end();
     this.follow();
   }
@@ -143,53 +128,42 @@ export class ArmPointing {
     /** @param {Vector3} axis */
     const reach = (axis) => Math.max(SPREAD, ...scene.items.map((item) => Math.abs(vector(item.position).sub(middle).dot(axis))));
     const [wide, deep] = [reach(right), reach(ahead)];
-    this.#marks = [[-1, 1], [0, 1], [1, 1], [1, -1], [0, -1], [-1, -1]].map(([x, y]) => middle.clone().addScaledVector(right, x * wide).addScaledVector(ahead, y * deep).setZ(height));
-    this.#shape = this.#canvas();
-    this.#still = new Stillness();
-    this.#ask(this.#marks);
+    const places = [[-1, 1], [0, 1], [1, 1], [1, -1], [0, -1], [-1, -1]];
+    const marks = places.map(([x, y]) => middle.clone().addScaledVector(right, x * wide).addScaledVector(ahead, y * deep).setZ(height));
+    this.#calibration = { marks, taken: new MarkedSamples(marks.length), shape: this.#canvas() };
+    this.#ask(this.#calibration);
   }
 
-  /** @param {Vector3[]} marks */
-  #ask(marks) {
+  /** @param {Calibration} calibration */
+  #ask({ marks, taken }) {
     this.follow();
-    this.#say("arm_point", { number: this.#samples.length + 1, all: marks.length });
+    this.#say("arm_point", { number: taken.samples.length + 1, all: marks.length });
   }
 
-  /** @param {TableView} view @param {Vector3[]} marks @param {{ side: Side | null, hand: Pair | null }} raised */
-  #calibrate(view, marks, { side, hand }) {
-    if (side && this.#side && side !== this.#side) {
-      this.#say("arm_other");
-      return;
-    }
-    const taken = this.#still.take(performance.now(), hand);
-    if (taken) {
-      this.#side = side;
-      this.#samples.push({ hand: taken, place: this.#placeOf(view, marks[this.#samples.length]) });
-    }
-    if (this.#samples.length < marks.length) this.#ask(marks);
-    else this.#conclude(view, marks);
+  /** @param {TableView} view @param {Calibration} calibration @param {{ side: Side | null, hand: Pair | null }} raised */
+  #calibrate(view, calibration, raised) {
+    const { marks, taken } = calibration;
+    if (!taken.take(performance.now(), raised, (mark) => this.#placeOf(view, marks[mark]))) this.#say("arm_other");
+    else if (taken.done) this.#conclude(view, calibration);
+    else this.#ask(calibration);
   }
 
-  /** @param {TableView} view @param {Vector3[]} marks */
-  #conclude(view, marks) {
+  /** @param {TableView} view @param {Calibration} calibration */
+  #conclude(view, { marks, taken: { samples, side }, shape }) {
     const { head } = view.table;
     /** @param {Vector3} place */
     const way = (place) => place.clone().sub(head);
-    const judged = judge(this.#samples, (place, index) => {
+    const judged = judge(samples, (place, index) => {
       const at = this.#tableAt(view, place);
       return at ? way(at).angleTo(way(marks[index])) : Math.PI;
     });
-    const found = sigma(judged);
-    this.#marks = null;
+    const found = sigma(judged), before = this.sigma;
+    this.#calibration = null;
     this.follow();
-    this.#map = found === null ? null : fit(this.#samples);
-    this.#lowered = false;
-    this.#samples = [];
-    const error = decimal(judged.error);
-    if (found !== null) this.#say("arm_good", good(found));
-    else this.#say(judged.error > LARGEST ? "arm_coarse" : "arm_blind", { error, most: decimal(LARGEST), guess: decimal(judged.guess) });
-    const before = this.sigma;
+    this.#arm = found === null ? null : { map: fit(samples), side, shape, gesture: new RaisedArm() };
     this.sigma = found;
+    if (found !== null) this.#say("arm_good", good(found));
+    else this.#say(judged.error > LARGEST ? "arm_coarse" : "arm_blind", { error: decimal(judged.error), most: decimal(LARGEST), guess: decimal(judged.guess) });
     if (found !== null && found !== before) this.listeners.onCalibrate();
   }
 
@@ -227,8 +201,8 @@ export class ArmPointing {
     } else if (!person && now - this.#personAt > GONE) {
       this.#end();
       this.#say("arm_nobody");
-    } else if (this.#marks) this.#calibrate(this.view, this.#marks, { side, hand: side && hands[side] || null });
-    else this.#use(this.view, now, side && side === this.#side && hands[side] || null);
+    } else if (this.#calibration) this.#calibrate(this.view, this.#calibration, { side, hand: (side && hands[side]) ?? null });
+    else this.#use(this.view, now, (side && side === this.#arm?.side && hands[side]) || null);
   }
 
   /** @param {number} now ms */
@@ -241,42 +215,35 @@ export class ArmPointing {
 
   /** @param {TableView} view @param {number} now ms @param {Pair | null} hand */
   #use(view, now, hand) {
-    if (!this.#map || this.sigma === null) {
-      if (!["arm_coarse", "arm_blind", "arm_moved"].includes(this.#state ?? "")) this.#say("arm_begin");
+    if (!this.#arm || this.sigma === null) {
+      if (!["arm_coarse", "arm_blind", "arm_moved"].includes(this.#said?.key ?? "")) this.#say("arm_begin");
       return;
     }
-    if (this.#moved()) {
+    if (this.#moved(this.#arm.shape)) {
       this.forget();
       return;
     }
-    const place = hand && this.#map(hand), fast = this.#fast(now, hand);
-    if (!hand) this.#lowered = true;
-    if (!place || fast || !this.#lowered || place.some((part) => Math.abs(part) > OUTSIDE)) this.#end();
+    const place = hand && this.#arm.map(hand);
+    if (!this.#arm.gesture.points(now, hand, place) || !place) this.#release();
     else {
-      this.#upSince ??= now;
-      this.#pointing = now - this.#upSince >= HELD;
-      if (this.#pointing) this.listeners.onPoint(this.#tableAt(view, place));
+      this.#pointing = true;
+      this.listeners.onPoint(this.#tableAt(view, place));
     }
     this.#say("arm_good", good(this.sigma));
   }
 
-  /** @param {number} now ms @param {Pair | null} hand */
-  #fast(now, hand) {
-    const before = this.#before;
-    this.#before = hand && { now, hand };
-    if (!hand || !before) return true;
-    return Math.hypot(hand[0] - before.hand[0], hand[1] - before.hand[1]) / (now - before.now) > FAST / 1000;
-  }
-
-  /** A picture elsewhere on the screen is pointed at otherwise. */
-  #moved() {
-    const now = this.#canvas(), before = this.#shape;
-    if (!before) return false;
+  /** A picture elsewhere on the screen is pointed at otherwise. @param {Rectangle} before */
+  #moved(before) {
+    const now = this.#canvas();
     return /** @type {const} */ (["left", "top", "width", "height"]).some((side) => Math.abs(now[side] - before[side]) > 0.05 * before.width);
   }
 
   #end() {
-    this.#upSince = null;
+    this.#arm?.gesture.end();
+    this.#release();
+  }
+
+  #release() {
     if (this.#pointing) this.listeners.onRelease();
     this.#pointing = false;
   }
