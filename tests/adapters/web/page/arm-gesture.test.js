@@ -4,9 +4,19 @@ import { MarkedSamples, RaisedArm } from "#page/arm-gesture.js";
 
 /** @import { Pair, Side } from "#page/calibration.js" */
 
-/** Hold a hand still for so many milliseconds, a picture each 100. @param {MarkedSamples} marks @param {Side} side @param {Pair} hand @param {number} from */
+/**
+ * Hold a hand still for so many milliseconds, a picture each 100.
+ * @param {MarkedSamples} marks
+ * @param {Side} side
+ * @param {Pair} hand
+ * @param {number} from
+ */
 function hold(marks, side, hand, from) {
-  for (let now = from; now <= from + 1000; now += 100) assert.equal(marks.take(now, { side, hand }, (mark) => [mark, 0]), true);
+  for (let now = from; now <= from + 1000; now += 100)
+    assert.equal(
+      marks.take(now, { side, hand }, (mark) => [mark, 0]),
+      true,
+    );
 }
 
 test("each mark is taken once, in their order, when the hand was still", () => {
@@ -17,15 +27,24 @@ test("each mark is taken once, in their order, when the hand was still", () => {
   assert.equal(marks.samples.length, 1);
   hold(marks, "right", [0.7, 0.3], 3000);
   assert.equal(marks.done, true);
-  assert.deepEqual(marks.samples, [{ hand: [0.2, 0.3], place: [0, 0] }, { hand: [0.7, 0.3], place: [1, 0] }]);
+  assert.deepEqual(marks.samples, [
+    { hand: [0.2, 0.3], place: [0, 0] },
+    { hand: [0.7, 0.3], place: [1, 0] },
+  ]);
   assert.equal(marks.side, "right");
 });
 
 test("the other arm is not taken once one has begun", () => {
   const marks = new MarkedSamples(2);
   hold(marks, "left", [0.2, 0.3], 0);
-  assert.equal(marks.take(2000, { side: "right", hand: [0.9, 0.3] }, () => [0, 0]), false);
-  assert.equal(marks.take(2100, { side: null, hand: null }, () => [0, 0]), true);
+  assert.equal(
+    marks.take(2000, { side: "right", hand: [0.9, 0.3] }, () => [0, 0]),
+    false,
+  );
+  assert.equal(
+    marks.take(2100, { side: null, hand: null }, () => [0, 0]),
+    true,
+  );
 });
 
 /** @type {Pair} */
@@ -49,7 +68,14 @@ test("an arm that is still up from its calibration does not point before it was 
 });
 
 test("a hand that is on its way, down or far outside the picture ends it, and it begins anew", () => {
-  for (const [hand, place] of /** @type {[Pair | null, Pair | null][]} */ ([[[0.9, 0.5], PLACE], [null, null], [[0.5, 0.5], [1.3, 0]]])) {
+  for (const [hand, place] of /** @type {[Pair | null, Pair | null][]} */ ([
+    [[0.9, 0.5], PLACE],
+    [null, null],
+    [
+      [0.5, 0.5],
+      [1.3, 0],
+    ],
+  ])) {
     const arm = new RaisedArm();
     raised(arm);
     assert.equal(arm.points(700, hand, place), false);

@@ -10,11 +10,17 @@ export const TEXTS = JSON.parse(readFileSync(new URL("texts.json", PAGE), "utf8"
 class MemoryStorage {
   #kept = new Map();
   /** @param {string} key */
-  getItem(key) { return this.#kept.get(key) ?? null; }
+  getItem(key) {
+    return this.#kept.get(key) ?? null;
+  }
   /** @param {string} key @param {string} value */
-  setItem(key, value) { this.#kept.set(key, String(value)); }
+  setItem(key, value) {
+    this.#kept.set(key, String(value));
+  }
   /** @param {string} key */
-  removeItem(key) { this.#kept.delete(key); }
+  removeItem(key) {
+    this.#kept.delete(key);
+  }
 }
 
 /** Let a test begin as a page does that was just opened. @param {string} address */
@@ -27,7 +33,8 @@ export function open(address = "http://robot.test/") {
     document: { documentElement: {}, querySelectorAll: () => [] },
     fetch: async () => ({ json: async () => structuredClone(TEXTS) }),
   };
-  for (const [name, value] of Object.entries(parts)) Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
+  for (const [name, value] of Object.entries(parts))
+    Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
 }
 
 open();

@@ -27,12 +27,18 @@ class FakeWebSocket {
     FakeWebSocket.made.push(this);
   }
 
-  static get last() { return FakeWebSocket.made[FakeWebSocket.made.length - 1]; }
+  static get last() {
+    return FakeWebSocket.made[FakeWebSocket.made.length - 1];
+  }
 
   /** @param {string | ArrayBuffer} data */
-  send(data) { this.sent.push(typeof data === "string" ? JSON.parse(data) : data); }
+  send(data) {
+    this.sent.push(typeof data === "string" ? JSON.parse(data) : data);
+  }
 
-  close() { this.closed = true; }
+  close() {
+    this.closed = true;
+  }
 
   accept() {
     this.readyState = 1;
@@ -40,7 +46,9 @@ class FakeWebSocket {
   }
 
   /** @param {object} message */
-  tell(message) { this.onmessage?.({ data: JSON.stringify(message) }); }
+  tell(message) {
+    this.onmessage?.({ data: JSON.stringify(message) });
+  }
 
   /** @param {number} code */
   drop(code = 1006) {
@@ -54,7 +62,10 @@ function connected() {
   const messages = [];
   /** @type {string[]} */
   const states = [];
-  const connection = new Connection((message) => messages.push(message), (state) => states.push(state));
+  const connection = new Connection(
+    (message) => messages.push(message),
+    (state) => states.push(state),
+  );
   connection.begin({ scene: "ambiguous", seed: 7 });
   FakeWebSocket.last.accept();
   return { connection, messages, states };
@@ -71,7 +82,9 @@ afterEach(() => mock.timers.reset());
 test("the first message is a hello, with what is asked for and the token of the address", () => {
   const { states } = connected();
   assert.equal(FakeWebSocket.last.address, "ws://robot.test/session");
-  assert.deepEqual(FakeWebSocket.last.sent, [{ type: "hello", version: 1, scene: "ambiguous", seed: 7, resume: null, participant: null, token: "secret" }]);
+  assert.deepEqual(FakeWebSocket.last.sent, [
+    { type: "hello", version: 1, scene: "ambiguous", seed: 7, resume: null, participant: null, token: "secret" },
+  ]);
   assert.deepEqual(states, ["connecting"]);
 });
 

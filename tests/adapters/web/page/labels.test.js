@@ -5,7 +5,10 @@ import { item, scene, TWINS } from "./scenes.js";
 import { described, kind } from "#page/labels.js";
 import { setLanguage } from "#page/texts.js";
 
-beforeEach(() => { open(); setLanguage("en"); });
+beforeEach(() => {
+  open();
+  setLanguage("en");
+});
 
 /** @param {import("#page/messages.js").Scene} table */
 const all = (table) => table.items.map((each) => described(each, table));
@@ -21,7 +24,10 @@ test("twins are told apart by left and right, an only one by its kind", () => {
 });
 
 test("twins behind each other are told apart by near and far", () => {
-  assert.deepEqual(all(scene(item("cup-1", [0, 3, 0.7]), item("cup-2", [0.1, 2, 0.7]))), ["the farther cup", "the nearer cup"]);
+  assert.deepEqual(all(scene(item("cup-1", [0, 3, 0.7]), item("cup-2", [0.1, 2, 0.7]))), [
+    "the farther cup",
+    "the nearer cup",
+  ]);
 });
 
 test("more than two are counted from the left, or from the front", () => {

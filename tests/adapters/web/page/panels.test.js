@@ -4,7 +4,10 @@ import { open } from "./browser.js";
 import { leaders } from "#page/panels.js";
 import { setLanguage } from "#page/texts.js";
 
-beforeEach(() => { open(); setLanguage("en"); });
+beforeEach(() => {
+  open();
+  setLanguage("en");
+});
 
 test("the likeliest item leads alone when it is twice as likely as any other", () => {
   assert.equal(leaders({ cup: 0.7, pot: 0.2, pan: 0.1 }), "now most likely: cup 70%");
@@ -15,5 +18,8 @@ test("others lead with it, the likeliest first", () => {
 });
 
 test("of many, three are named", () => {
-  assert.equal(leaders({ a: 0.22, b: 0.21, c: 0.2, d: 0.19, e: 0.18 }), "now most likely: a 22%, b 21%, c 20%, and 2 more");
+  assert.equal(
+    leaders({ a: 0.22, b: 0.21, c: 0.2, d: 0.19, e: 0.18 }),
+    "now most likely: a 22%, b 21%, c 20%, and 2 more",
+  );
 });

@@ -8,4 +8,8 @@ export const item = (id, position) => ({ id, position, vocabulary: [id.split("-"
 /** Items before a head that looks along y. @param {Item[]} items @returns {Scene} */
 export const scene = (...items) => ({ items, head: [0, 0, 1.6], sigma: 0.15, threshold: 0.7 });
 
-export const TWINS = scene(item("bowl-1", [-0.4, 2, 0.75]), item("marker-1", [-0.1, 2, 0.75]), item("marker-2", [0.2, 2, 0.75]));
+export const TWINS = scene(
+  item("bowl-1", [-0.4, 2, 0.75]),
+  item("marker-1", [-0.1, 2, 0.75]),
+  item("marker-2", [0.2, 2, 0.75]),
+);

@@ -13,7 +13,18 @@ function draft(table = TWINS) {
 test("a table becomes a scene file", () => {
   const made = draft(scene(item("cup", [0.12345, 1, 0.75])));
   made.items[0].words = "cup, red  small,";
-  assert.equal(made.toml(), 'head = [0.0, 0.0, 1.6]  # m, of the person\n\n[[items]]\nid = "cup"\nposition = [0.123, 1.0, 0.75]  # m\nvocabulary = ["cup", "red", "small"]\n');
+  assert.equal(
+    made.toml(),
+    [
+      "head = [0.0, 0.0, 1.6]  # m, of the person",
+      "",
+      "[[items]]",
+      'id = "cup"',
+      "position = [0.123, 1.0, 0.75]  # m",
+      'vocabulary = ["cup", "red", "small"]',
+      "",
+    ].join("\n"),
+  );
 });
 
 test("what is typed cannot leave its quotes", () => {
@@ -55,5 +66,8 @@ test("an item is added beside the last, and removed", () => {
   assert.equal(made.items.length, 4);
   assert.deepEqual(made.items[3].position, [0.35, 2, 0.75]);
   made.remove(made.items[0]);
-  assert.deepEqual(made.items.map(({ id }) => id), ["marker-1", "marker-2", "item-4"]);
+  assert.deepEqual(
+    made.items.map(({ id }) => id),
+    ["marker-1", "marker-2", "item-4"],
+  );
 });

@@ -2,7 +2,17 @@ import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { beforeEach, test } from "node:test";
 import { open, PAGE, TEXTS } from "./browser.js";
-import { decimal, fallbackLanguage, inLanguage, join, percent, phrase, preferredLanguage, setLanguage, text } from "#page/texts.js";
+import {
+  decimal,
+  fallbackLanguage,
+  inLanguage,
+  join,
+  percent,
+  phrase,
+  preferredLanguage,
+  setLanguage,
+  text,
+} from "#page/texts.js";
 
 beforeEach(() => open());
 
@@ -16,17 +26,33 @@ test("all languages have the same keys", () => {
 test("all languages have the same placeholders", () => {
   for (const texts of Object.values(TEXTS))
     for (const [key, template] of Object.entries(texts))
-      if (key !== "why_it") assert.deepEqual(holes(template), holes(TEXTS.en[key]), key); // English has a pronoun for it
+      // English has a pronoun for the item.
+      if (key !== "why_it") assert.deepEqual(holes(template), holes(TEXTS.en[key]), key);
 });
 
 test("every text that the page asks for by name exists, and every one that exists is asked for", () => {
-  const sources = readdirSync(PAGE).filter((name) => /\.(js|html)$/.test(name)).map((name) => readFileSync(new URL(name, PAGE), "utf8"));
-  const asked = sources.flatMap((source) => [...source.matchAll(/(?:\btext|english)\("(\w+)"|data-(?:text|label|placeholder)="(\w+)"/g)].map((found) => found[1] ?? found[2]));
-  assert.deepEqual(asked.filter((key) => !(key in TEXTS.en)), []);
+  const sources = readdirSync(PAGE)
+    .filter((name) => /\.(js|html)$/.test(name))
+    .map((name) => readFileSync(new URL(name, PAGE), "utf8"));
+  const asked = sources.flatMap((source) =>
+    [...source.matchAll(/(?:\btext|english)\("(\w+)"|data-(?:text|label|placeholder)="(\w+)"/g)].map(
+      (found) => found[1] ?? found[2],
+    ),
+  );
+  assert.deepEqual(
+    asked.filter((key) => !(key in TEXTS.en)),
+    [],
+  );
   // Keys that are put together, or come from the server: a phrase's, what the robot says, and states.
-  const composed = /^(why|item|sensor|state|stage|arm)_|_note$/, elsewhere = sources.join("\n");
+  const composed = /^(why|item|sensor|state|stage|arm)_|_note$/,
+    elsewhere = sources.join("\n");
   const server = ["asks", "hands_over", "listening", "failed", "objected", "connecting", "lost", "busy", "moved"];
-  assert.deepEqual(Object.keys(TEXTS.en).filter((key) => !composed.test(key) && !server.includes(key) && !elsewhere.includes(`"${key}"`)), []);
+  assert.deepEqual(
+    Object.keys(TEXTS.en).filter(
+      (key) => !composed.test(key) && !server.includes(key) && !elsewhere.includes(`"${key}"`),
+    ),
+    [],
+  );
 });
 
 test("placeholders are filled", () => {
@@ -58,7 +84,10 @@ test("a study's text that is not in the page's language is English, and said to 
 });
 
 test("a phrase of the server is filled in the page's language, its numbers too", () => {
-  const other = { key: "why_times", values: { likelier: { key: "why_it", values: { item: "cup-1" } }, ratio: { number: "2.5" }, other: "cup-2" } };
+  const other = {
+    key: "why_times",
+    values: { likelier: { key: "why_it", values: { item: "cup-1" } }, ratio: { number: "2.5" }, other: "cup-2" },
+  };
   setLanguage("en");
   assert.equal(phrase(other), "it is 2.5 times as likely as cup-2");
   setLanguage("de");

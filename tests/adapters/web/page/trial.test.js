@@ -8,7 +8,16 @@ import { canWithdraw, isTrial, Trial } from "#page/trial.js";
 /** @import { Stage, TrialStage } from "#page/messages.js" */
 
 /** @type {TrialStage} */
-const STAGE = { type: "stage", stage: "trials", title: { en: "Fetching" }, order: 1, of: 9, desired: "marker-2", running: false, give_up: 60 };
+const STAGE = {
+  type: "stage",
+  stage: "trials",
+  title: { en: "Fetching" },
+  order: 1,
+  of: 9,
+  desired: "marker-2",
+  running: false,
+  give_up: 60,
+};
 
 beforeEach(() => {
   open();
@@ -26,9 +35,25 @@ function trial(changes = {}) {
 test("practice and trials are trials, all else is pages; what is over cannot be withdrawn from", () => {
   /** @param {string} stage */
   const of = (stage) => /** @type {Stage} */ (/** @type {unknown} */ ({ ...STAGE, stage }));
-  const stages = ["consent", "instructions", "practice", "trials", "questions", "done", "withdrawn", "declined", "full"];
-  assert.deepEqual(stages.filter((stage) => isTrial(of(stage))), ["practice", "trials"]);
-  assert.deepEqual(stages.filter((stage) => !canWithdraw(of(stage))), ["withdrawn", "declined", "full"]);
+  const stages = [
+    "consent",
+    "instructions",
+    "practice",
+    "trials",
+    "questions",
+    "done",
+    "withdrawn",
+    "declined",
+    "full",
+  ];
+  assert.deepEqual(
+    stages.filter((stage) => isTrial(of(stage))),
+    ["practice", "trials"],
+  );
+  assert.deepEqual(
+    stages.filter((stage) => !canWithdraw(of(stage))),
+    ["withdrawn", "declined", "full"],
+  );
 });
 
 test("a trial says which it is and what to get, in words", () => {
@@ -73,13 +98,17 @@ test("the countdown counts whole seconds, and stops when the interaction begins"
 
 test("it may be given up after a while on the trial's own clock, unless it is over", () => {
   let offered = 0;
-  trial().begin(20, () => { offered += 1; });
+  trial().begin(20, () => {
+    offered += 1;
+  });
   mock.timers.tick(39_999);
   assert.equal(offered, 0);
   mock.timers.tick(1);
   assert.equal(offered, 1);
   const over = trial();
-  over.begin(0, () => { offered += 1; });
+  over.begin(0, () => {
+    offered += 1;
+  });
   over.end();
   mock.timers.tick(120_000);
   assert.equal(offered, 1);

@@ -24,16 +24,29 @@ class App {
   /** @type {ConnectionState} */
   #state = "connecting";
   #held = false; // the mouse button or a finger on the table
-  #connection = new Connection((message) => this.#receive(message), (state) => this.#change(state));
+  #connection = new Connection(
+    (message) => this.#receive(message),
+    (state) => this.#change(state),
+  );
   #view = viewOf(find("#view", HTMLCanvasElement), () => this.#follow());
-  #labels = new Labels(find("#items"), (id) => { if (!this.#editor.open) this.#pointing.atItem(id); });
+  #labels = new Labels(find("#items"), (id) => {
+    if (!this.#editor.open) this.#pointing.atItem(id);
+  });
   #voice = new RobotVoice(this.#view);
-  #microphone = new Microphone(this.#connection, (words) => this.#say(words), (reason) => showState(text("no_microphone", { reason })));
+  #microphone = new Microphone(
+    this.#connection,
+    (words) => this.#say(words),
+    (reason) => showState(text("no_microphone", { reason })),
+  );
   #editor = new Editor(this.#view, (toml) => this.#begin({ toml }));
   #pointing = new Pointing(this.#connection, (target) => this.#view?.point(target));
   #arm = new ArmPointing(this.#view, {
-    onPoint: (place) => { if (!this.#held && !this.#editor.open) this.#pointing.at(place); },
-    onRelease: () => { if (!this.#held) this.#pointing.end(); },
+    onPoint: (place) => {
+      if (!this.#held && !this.#editor.open) this.#pointing.at(place);
+    },
+    onRelease: () => {
+      if (!this.#held) this.#pointing.end();
+    },
     onCalibrate: () => this.#begin(this.#menu.table),
   });
   #menu = new Menu({
@@ -44,12 +57,25 @@ class App {
   });
   /** @type {Study} */
   #study = new Study({
-    connection: this.#connection, view: this.#view, labels: this.#labels, voice: this.#voice, showState,
-    quiet: () => { this.#microphone.stop(); this.#pointing.end(); },
+    connection: this.#connection,
+    view: this.#view,
+    labels: this.#labels,
+    voice: this.#voice,
+    showState,
+    quiet: () => {
+      this.#microphone.stop();
+      this.#pointing.end();
+    },
     choose: (language) => this.#choose(language),
   });
   #interaction = new Interaction({
-    view: this.#view, labels: this.#labels, panel: new DecisionPanel(), log: new EventLog(), voice: this.#voice, editor: this.#editor, showState,
+    view: this.#view,
+    labels: this.#labels,
+    panel: new DecisionPanel(),
+    log: new EventLog(),
+    voice: this.#voice,
+    editor: this.#editor,
+    showState,
     onWelcome: (message) => this.#welcome(message),
     inStudy: () => this.#study.on,
   });
@@ -69,7 +95,12 @@ class App {
   #begin(table) {
     this.#menu.choose(table);
     if (JSON.stringify(table) !== this.#begun) this.#arm.forget();
-    this.#connection.begin({ scene: table, sigma: this.#arm.sigma, planner: this.#menu.planner, seed: Math.floor(Math.random() * 2 ** 31) });
+    this.#connection.begin({
+      scene: table,
+      sigma: this.#arm.sigma,
+      planner: this.#menu.planner,
+      seed: Math.floor(Math.random() * 2 ** 31),
+    });
   }
 
   /** @param {ServerMessage} message */
@@ -123,11 +154,12 @@ class App {
       input.value = "";
     });
     input.addEventListener("input", () => this.#connection.send({ type: "typing", text: input.value }));
-    for (const answer of findAll("[data-say]", HTMLElement)) answer.addEventListener("click", () => {
-      this.#say(answer.dataset.say ?? "");
-      find("#answers").hidden = true;
-      input.focus();
-    });
+    for (const answer of findAll("[data-say]", HTMLElement))
+      answer.addEventListener("click", () => {
+        this.#say(answer.dataset.say ?? "");
+        find("#answers").hidden = true;
+        input.focus();
+      });
     find("#stop").addEventListener("click", () => this.#say("stop"));
   }
 
@@ -146,15 +178,20 @@ class App {
       if (this.#editor.dragging) this.#editor.drag(place(event));
       else if (this.#pointing.on && event.buttons) this.#pointing.at(place(event));
     });
-    for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, () => {
-      this.#held = false;
-      this.#editor.drop();
-      this.#pointing.end();
-    });
+    for (const kind of ["pointerup", "pointercancel"])
+      canvas.addEventListener(kind, () => {
+        this.#held = false;
+        this.#editor.drop();
+        this.#pointing.end();
+      });
   }
 }
 
-/** The table in 3-D, or null where the browser has no WebGL. @param {HTMLCanvasElement} canvas @param {() => void} onDrawn */
+/**
+ * The table in 3-D, or null where the browser has no WebGL.
+ * @param {HTMLCanvasElement} canvas
+ * @param {() => void} onDrawn
+ */
 function viewOf(canvas, onDrawn) {
   try {
     return new TableView(canvas, onDrawn);

@@ -1,4 +1,5 @@
-// What a raised arm does over several pictures: it points at the marks of a calibration, or at the table. No browser needed.
+// What a raised arm does over several pictures: it points at the marks of a calibration, or at the table. No browser
+// needed.
 
 import { Stillness } from "./calibration.js";
 
@@ -22,7 +23,9 @@ export class MarkedSamples {
   }
 
   /** Whether every mark was pointed at. */
-  get done() { return this.samples.length === this.count; }
+  get done() {
+    return this.samples.length === this.count;
+  }
 
   /**
    * Take what is seen now; false for the other arm.
@@ -49,7 +52,12 @@ export class RaisedArm {
   /** @type {{ now: number, hand: Pair } | null} */
   #before = null; // the hand in the picture before
 
-  /** Take what is seen now; true while it points. @param {number} now ms @param {Pair | null} hand @param {Pair | null} place in the picture of the table */
+  /**
+   * Take what is seen now; true while it points.
+   * @param {number} now ms
+   * @param {Pair | null} hand
+   * @param {Pair | null} place in the picture of the table
+   */
   points(now, hand, place) {
     const fast = this.#fast(now, hand);
     if (!hand) this.#lowered = true;

@@ -11,10 +11,14 @@ import { decimal, text } from "./texts.js";
 /** @import { Pair, Side } from "./calibration.js" */
 /** @import { TableView } from "./table-view.js" */
 /** @typedef {Record<"left" | "top" | "width" | "height", number>} Rectangle in pixels */
-/** @typedef {{ marks: Vector3[], taken: MarkedSamples, shape: Rectangle }} Calibration that goes on; shape: of the picture of the table */
+/**
+ * @typedef {{ marks: Vector3[], taken: MarkedSamples, shape: Rectangle }} Calibration that goes on; shape: of the
+ *   picture of the table
+ */
 /** @typedef {{ map: (hand: Pair) => Pair, side: Side | null, shape: Rectangle, gesture: RaisedArm }} CalibratedArm */
 
-const SLOW = 5, QUICK = 6; // pictures a second below which it is said, and above which no more
+const SLOW = 5,
+  QUICK = 6; // pictures a second below which it is said, and above which no more
 const GONE = 3000; // ms without a person after which it is said
 const HUNG = 1000; // ms without a picture after which an arm no longer points
 const SPREAD = 0.12; // m, at least, of the marks to each side of the items' middle
@@ -36,15 +40,23 @@ export class ArmPointing {
 
   /**
    * @param {TableView | null} view without one, an arm cannot point
-   * @param {{ onPoint: (place: Vector3 | null) => void, onRelease: () => void, onCalibrate: () => void }} listeners called with the place that is pointed
-   *   at, when nothing is any more, and when the arm has another spread, `sigma`, with which an interaction is to begin
+   * @param {object} listeners
+   * @param {(place: Vector3 | null) => void} listeners.onPoint called with the place that is pointed at
+   * @param {() => void} listeners.onRelease called when nothing is pointed at any more
+   * @param {() => void} listeners.onCalibrate called when the arm has another spread, with which
+   *   an interaction is to begin
    */
   constructor(view, listeners) {
     this.view = view;
     this.listeners = listeners;
-    this.camera = new Camera(find("#preview", HTMLCanvasElement), (joints, aspect) => this.#saw(joints, aspect), (reason) => this.#failed(reason));
+    this.camera = new Camera(
+      find("#preview", HTMLCanvasElement),
+      (joints, aspect) => this.#saw(joints, aspect),
+      (reason) => this.#failed(reason),
+    );
     find("#arm-choice").hidden = !view || !navigator.mediaDevices;
-    for (const choice of findAll("[name=pointing]", HTMLInputElement)) choice.addEventListener("change", () => this.#choose(choice.value === "camera"));
+    for (const choice of findAll("[name=pointing]", HTMLInputElement))
+      choice.addEventListener("change", () => this.#choose(choice.value === "camera"));
     find("#calibrate").addEventListener("click", () => this.#begin());
     find("#camera-off").addEventListener("click", () => this.#off());
     setInterval(() => this.#watch(), HUNG / 2);
@@ -69,7 +81,8 @@ export class ArmPointing {
     const mark = find("#mark");
     mark.hidden = !this.#calibration;
     if (!this.#calibration || !this.view) return;
-    const { marks, taken } = this.#calibration, { x, y } = this.view.seen(marks[taken.samples.length]);
+    const { marks, taken } = this.#calibration,
+      { x, y } = this.view.seen(marks[taken.samples.length]);
     mark.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 
@@ -124,12 +137,29 @@ export class ArmPointing {
   #begin() {
     if (!this.view) return;
     this.#drop();
-    const { scene, frame: { middle, ahead, right, height } } = this.view.table;
+    const {
+      scene,
+      frame: { middle, ahead, right, height },
+    } = this.view.table;
     /** @param {Vector3} axis */
-    const reach = (axis) => Math.max(SPREAD, ...scene.items.map((item) => Math.abs(vector(item.position).sub(middle).dot(axis))));
+    const reach = (axis) =>
+      Math.max(SPREAD, ...scene.items.map((item) => Math.abs(vector(item.position).sub(middle).dot(axis))));
     const [wide, deep] = [reach(right), reach(ahead)];
-    const places = [[-1, 1], [0, 1], [1, 1], [1, -1], [0, -1], [-1, -1]];
-    const marks = places.map(([x, y]) => middle.clone().addScaledVector(right, x * wide).addScaledVector(ahead, y * deep).setZ(height));
+    const places = [
+      [-1, 1],
+      [0, 1],
+      [1, 1],
+      [1, -1],
+      [0, -1],
+      [-1, -1],
+    ];
+    const marks = places.map(([x, y]) =>
+      middle
+        .clone()
+        .addScaledVector(right, x * wide)
+        .addScaledVector(ahead, y * deep)
+        .setZ(height),
+    );
     this.#calibration = { marks, taken: new MarkedSamples(marks.length), shape: this.#canvas() };
     this.#ask(this.#calibration);
   }
@@ -140,7 +170,11 @@ export class ArmPointing {
     this.#say("arm_point", { number: taken.samples.length + 1, all: marks.length });
   }
 
-  /** @param {TableView} view @param {Calibration} calibration @param {{ side: Side | null, hand: Pair | null }} raised */
+  /**
+   * @param {TableView} view
+   * @param {Calibration} calibration
+   * @param {{ side: Side | null, hand: Pair | null }} raised
+   */
   #calibrate(view, calibration, raised) {
     const { marks, taken } = calibration;
     if (!taken.take(performance.now(), raised, (mark) => this.#placeOf(view, marks[mark]))) this.#say("arm_other");
@@ -157,13 +191,19 @@ export class ArmPointing {
       const at = this.#tableAt(view, place);
       return at ? way(at).angleTo(way(marks[index])) : Math.PI;
     });
-    const found = sigma(judged), before = this.sigma;
+    const found = sigma(judged),
+      before = this.sigma;
     this.#calibration = null;
     this.follow();
     this.#arm = found === null ? null : { map: fit(samples), side, shape, gesture: new RaisedArm() };
     this.sigma = found;
     if (found !== null) this.#say("arm_good", good(found));
-    else this.#say(judged.error > LARGEST ? "arm_coarse" : "arm_blind", { error: decimal(judged.error), most: decimal(LARGEST), guess: decimal(judged.guess) });
+    else
+      this.#say(judged.error > LARGEST ? "arm_coarse" : "arm_blind", {
+        error: decimal(judged.error),
+        most: decimal(LARGEST),
+        guess: decimal(judged.guess),
+      });
     if (found !== null && found !== before) this.listeners.onCalibrate();
   }
 
@@ -176,7 +216,8 @@ export class ArmPointing {
 
   /** @param {TableView} view @param {Vector3} point @returns {Pair} */
   #placeOf(view, point) {
-    const { x, y } = view.seen(point), { width, height } = this.#canvas();
+    const { x, y } = view.seen(point),
+      { width, height } = this.#canvas();
     return [(2 * x) / width - 1, (2 * y) / height - 1];
   }
 
@@ -191,7 +232,8 @@ export class ArmPointing {
   /** @param {Joint[] | null} joints @param {number} aspect */
   #saw(joints, aspect) {
     if (!this.view) return;
-    const now = performance.now(), { person, raised, hands } = arms(joints, aspect);
+    const now = performance.now(),
+      { person, raised, hands } = arms(joints, aspect);
     this.#pace(now);
     if (person || !this.#personAt) this.#personAt = now;
     const side = raised.length === 1 ? raised[0] : null;
@@ -201,7 +243,8 @@ export class ArmPointing {
     } else if (!person && now - this.#personAt > GONE) {
       this.#end();
       this.#say("arm_nobody");
-    } else if (this.#calibration) this.#calibrate(this.view, this.#calibration, { side, hand: (side && hands[side]) ?? null });
+    } else if (this.#calibration)
+      this.#calibrate(this.view, this.#calibration, { side, hand: (side && hands[side]) ?? null });
     else this.#use(this.view, now, (side && side === this.#arm?.side && hands[side]) || null);
   }
 
@@ -235,7 +278,9 @@ export class ArmPointing {
   /** A picture elsewhere on the screen is pointed at otherwise. @param {Rectangle} before */
   #moved(before) {
     const now = this.#canvas();
-    return /** @type {const} */ (["left", "top", "width", "height"]).some((side) => Math.abs(now[side] - before[side]) > 0.05 * before.width);
+    return /** @type {const} */ (["left", "top", "width", "height"]).some(
+      (side) => Math.abs(now[side] - before[side]) > 0.05 * before.width,
+    );
   }
 
   #end() {

@@ -1,4 +1,5 @@
-// From an arm in a picture to a place on the screen: what is measured of the arm, and how it is fitted. No browser needed.
+// From an arm in a picture to a place on the screen: what is measured of the arm, and how it is fitted. No browser
+// needed.
 //
 // Joints are those of MediaPipe Pose: x, y as shares of the picture's width and height, downwards, and visibility.
 // Nobody knows where the camera is. The person points at marks whose places on the screen are known, and an affine map
@@ -6,7 +7,10 @@
 
 /** @typedef {[x: number, y: number]} Pair */
 /** @typedef {"left" | "right"} Side */
-/** @typedef {{ hand: Pair, place: Pair }} Sample hand: in shoulder widths from the eyes; place: from -1 to 1 each way in the picture of the table */
+/**
+ * @typedef {{ hand: Pair, place: Pair }} Sample hand: in shoulder widths from the eyes; place: from -1 to 1 each way
+ *   in the picture of the table
+ */
 
 export const LARGEST = 0.3; // rad: with a coarser arm the mouse is used
 export const SMALLEST = 0.02; // rad: nobody's arm is surer than that, whatever six marks say
@@ -28,7 +32,8 @@ export function arms(joints, aspect) {
   if (!joints) return { person: false, raised: [], hands: {} };
   /** @param {number} index @returns {Place} */
   const at = (index) => ({ x: joints[index].x * aspect, y: joints[index].y, seen: joints[index].visibility >= SEEN });
-  const [left, right] = [at(ARMS.left.shoulder), at(ARMS.right.shoulder)], eyes = middle(at(EYES[0]), at(EYES[1]));
+  const [left, right] = [at(ARMS.left.shoulder), at(ARMS.right.shoulder)],
+    eyes = middle(at(EYES[0]), at(EYES[1]));
   const width = Math.hypot(left.x - right.x, left.y - right.y);
   if (!left.seen || !right.seen || !eyes.seen || width < 0.02) return { person: false, raised: [], hands: {} };
   /** @type {Partial<Record<Side, Pair>>} */
@@ -36,7 +41,8 @@ export function arms(joints, aspect) {
   /** @type {Side[]} */
   const raised = [];
   for (const side of /** @type {Side[]} */ (["left", "right"])) {
-    const { wrist, finger } = ARMS[side], hand = middle(at(wrist), at(finger));
+    const { wrist, finger } = ARMS[side],
+      hand = middle(at(wrist), at(finger));
     hands[side] = [(hand.x - eyes.x) / width, (hand.y - eyes.y) / width];
     if (at(wrist).seen && (at(wrist).y - (left.y + right.y) / 2) / width < RAISED) raised.push(side);
   }
@@ -57,16 +63,23 @@ export function fit(samples) {
   /** @param {number} axis @returns {(hand: Pair) => number} */
   const along = (axis) => {
     const [offset, x, y] = solve(
-      [0, 1, 2].map((i) => [0, 1, 2].map((j) => rows.reduce((sum, row) => sum + row[i] * row[j], i === j && i ? RIDGE : 0))),
+      [0, 1, 2].map((i) =>
+        [0, 1, 2].map((j) => rows.reduce((sum, row) => sum + row[i] * row[j], i === j && i ? RIDGE : 0)),
+      ),
       [0, 1, 2].map((i) => rows.reduce((sum, row, index) => sum + row[i] * samples[index].place[axis], 0)),
     );
     return (hand) => offset + x * (hand[0] - centre[0]) + y * (hand[1] - centre[1]);
   };
-  const across = along(0), down = along(1);
+  const across = along(0),
+    down = along(1);
   return (hand) => [across(hand), down(hand)];
 }
 
-/** Solve a symmetric positive definite system of three by elimination. @param {number[][]} matrix @param {number[]} right */
+/**
+ * Solve a symmetric positive definite system of three by elimination.
+ * @param {number[][]} matrix
+ * @param {number[]} right
+ */
 function solve(matrix, right) {
   const rows = matrix.map((row, index) => [...row, right[index]]);
   for (let pivot = 0; pivot < 3; pivot += 1)
@@ -79,8 +92,8 @@ function solve(matrix, right) {
 }
 
 /**
- * How well samples can be told from each other. error: root mean square over samples, each judged by the map of the others;
- * guess: the same by the mean of the others, which is what an arm that tells nothing comes to.
+ * How well samples can be told from each other. error: root mean square over samples, each judged by the map of the
+ * others; guess: the same by the mean of the others, which is what an arm that tells nothing comes to.
  * @param {Sample[]} samples
  * @param {(place: Pair, index: number) => number} angle rad between a place and where sample `index` was
  */
@@ -90,8 +103,15 @@ export function judge(samples, angle) {
   /** @param {Sample[]} others @param {number} axis */
   const mean = (others, axis) => others.reduce((sum, { place }) => sum + place[axis], 0) / others.length;
   /** @param {(others: Sample[], sample: Sample) => Pair} predicted */
-  const rms = (predicted) => Math.sqrt(samples.reduce((sum, sample, index) => sum + angle(predicted(rest(index), sample), index) ** 2, 0) / samples.length);
-  return { error: rms((others, { hand }) => fit(others)(hand)), guess: rms((others) => [mean(others, 0), mean(others, 1)]) };
+  const rms = (predicted) =>
+    Math.sqrt(
+      samples.reduce((sum, sample, index) => sum + angle(predicted(rest(index), sample), index) ** 2, 0) /
+        samples.length,
+    );
+  return {
+    error: rms((others, { hand }) => fit(others)(hand)),
+    guess: rms((others) => [mean(others, 0), mean(others, 1)]),
+  };
 }
 
 /**

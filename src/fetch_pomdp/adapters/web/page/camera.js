@@ -1,10 +1,22 @@
 // The webcam: its pictures go to the pose model in this browser, and nowhere else.
 
-/** @typedef {(joints: Joint[] | null, aspect: number) => void} Seen each picture's joints, or null; width over height of it */
+/**
+ * @typedef {(joints: Joint[] | null, aspect: number) => void} Seen each picture's joints, or null; width over height
+ *   of it
+ */
 
-const WIDTH = 320, HEIGHT = 240; // of the picture that the model is given, and of the preview
+const WIDTH = 320,
+  HEIGHT = 240; // of the picture that the model is given, and of the preview
 const PAUSE = 40; // ms between pictures, at least
-const BONES = [[11, 12], [11, 13], [13, 15], [12, 14], [14, 16], [15, 19], [16, 20]];
+const BONES = [
+  [11, 12],
+  [11, 13],
+  [13, 15],
+  [12, 14],
+  [14, 16],
+  [15, 19],
+  [16, 20],
+];
 
 export class Camera {
   /** @type {Worker | null} */
@@ -20,7 +32,8 @@ export class Camera {
   /**
    * @param {HTMLCanvasElement} preview
    * @param {Seen} onSeen
-   * @param {(reason: string | null) => void} onFail called with why there are no more pictures, or null if the camera was taken
+   * @param {(reason: string | null) => void} onFail called with why there are no more pictures, or null if
+   *   the camera was taken
    */
   constructor(preview, onSeen, onFail) {
     this.preview = preview;
@@ -32,14 +45,18 @@ export class Camera {
     for (const canvas of [preview, this.looked]) Object.assign(canvas, { width: WIDTH, height: HEIGHT });
   }
 
-  get on() { return this.#stream !== null; }
+  get on() {
+    return this.#stream !== null;
+  }
 
   async open() {
     this.close();
     const wanted = {};
     this.#wanted = wanted;
     try {
-      const stream = await navigator.mediaDevices.getUserMedia({ video: { width: { ideal: 640 }, height: { ideal: 480 }, facingMode: "user" } });
+      const stream = await navigator.mediaDevices.getUserMedia({
+        video: { width: { ideal: 640 }, height: { ideal: 480 }, facingMode: "user" },
+      });
       if (this.#wanted !== wanted) {
         for (const track of stream.getTracks()) track.stop();
         return;
@@ -77,9 +94,13 @@ export class Camera {
   async #look() {
     if (!this.#worker) return;
     const { videoWidth: width, videoHeight: height } = this.video;
-    const shown = Math.min(width, (height * WIDTH) / HEIGHT), high = (shown * HEIGHT) / WIDTH;
+    const shown = Math.min(width, (height * WIDTH) / HEIGHT),
+      high = (shown * HEIGHT) / WIDTH;
     this.#askedAt = performance.now();
-    const picture = await createImageBitmap(this.video, (width - shown) / 2, (height - high) / 2, shown, high, { resizeWidth: WIDTH, resizeHeight: HEIGHT });
+    const picture = await createImageBitmap(this.video, (width - shown) / 2, (height - high) / 2, shown, high, {
+      resizeWidth: WIDTH,
+      resizeHeight: HEIGHT,
+    });
     context(this.looked).drawImage(picture, 0, 0);
     this.#worker?.postMessage(picture, [picture]);
   }
@@ -92,9 +113,13 @@ export class Camera {
       return;
     }
     this.#draw(joints);
-    const frozen = this.#stream.getVideoTracks()[0].muted; // no new pictures come: the arm in the last one is down by now
+    // No new pictures come: the arm in the last one is down by now.
+    const frozen = this.#stream.getVideoTracks()[0].muted;
     this.onSeen(frozen ? null : joints, WIDTH / HEIGHT);
-    this.#timer = setTimeout(() => this.#look().catch((problem) => this.#fail(message(problem))), Math.max(0, this.#askedAt + PAUSE - performance.now()));
+    this.#timer = setTimeout(
+      () => this.#look().catch((problem) => this.#fail(message(problem))),
+      Math.max(0, this.#askedAt + PAUSE - performance.now()),
+    );
   }
 
   /** The preview is a mirror. @param {Joint[] | null} joints */

@@ -29,12 +29,18 @@ export class Connection {
     this.token = new URLSearchParams(location.hash.slice(1)).get("token");
   }
 
-  get resume() { return sessionStorage.getItem("resume"); }
+  get resume() {
+    return sessionStorage.getItem("resume");
+  }
 
-  get participant() { return localStorage.getItem("participant"); } // of a study: who closes the page may come back later
+  get participant() {
+    return localStorage.getItem("participant");
+  } // of a study: who closes the page may come back later
 
   /** Know nothing more of the participant. */
-  forget() { localStorage.removeItem("participant"); }
+  forget() {
+    localStorage.removeItem("participant");
+  }
 
   /** Begin an interaction; without a hello, go on with the last one. @param {Hello | null} hello */
   begin(hello) {
@@ -46,7 +52,8 @@ export class Connection {
 
   /** @param {PageMessage | ArrayBuffer} message */
   send(message) {
-    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(message instanceof ArrayBuffer ? message : JSON.stringify(message));
+    if (this.#socket?.readyState === WebSocket.OPEN)
+      this.#socket.send(message instanceof ArrayBuffer ? message : JSON.stringify(message));
   }
 
   /** Withdraw from a study; if the connection is lost meanwhile, as soon as it is back. */
@@ -66,14 +73,24 @@ export class Connection {
     address.hash = "";
     const socket = new WebSocket(address);
     this.#socket = socket;
-    socket.onopen = () => this.send({ type: "hello", version: 1, ...this.#hello, resume: this.resume, participant: this.participant, token: this.token });
+    socket.onopen = () =>
+      this.send({
+        type: "hello",
+        version: 1,
+        ...this.#hello,
+        resume: this.resume,
+        participant: this.participant,
+        token: this.token,
+      });
     socket.onmessage = ({ data }) => this.#receive(JSON.parse(data));
     socket.onclose = ({ code }) => this.#lose(code);
   }
 
   /** @param {ServerMessage} message */
   #receive(message) {
-    this.#steady ??= setTimeout(() => { this.#attempts = 0; }, STEADY);
+    this.#steady ??= setTimeout(() => {
+      this.#attempts = 0;
+    }, STEADY);
     if (message.type === "welcome" && message.resume) sessionStorage.setItem("resume", message.resume);
     if (message.type === "stage") {
       if (message.resume) localStorage.setItem("participant", message.resume);

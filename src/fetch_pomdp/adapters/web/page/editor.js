@@ -36,7 +36,9 @@ export class Editor {
     find("#items").addEventListener("keydown", (event) => this.#nudge(event));
   }
 
-  get dragging() { return this.#held !== null; }
+  get dragging() {
+    return this.#held !== null;
+  }
 
   /** @param {Scene} scene */
   load(scene) {
@@ -104,15 +106,25 @@ export class Editor {
   /** @param {DraftItem} item */
   #row(item) {
     const legend = create("legend", { textContent: item.id });
-    const name = field(text("name"), item.id, (value) => { item.id = value; legend.textContent = value; });
-    const words = field(text("words"), item.words, (value) => { item.words = value; });
+    const name = field(text("name"), item.id, (value) => {
+      item.id = value;
+      legend.textContent = value;
+    });
+    const words = field(text("words"), item.words, (value) => {
+      item.words = value;
+    });
     name.className = words.className = "wide";
-    const places = COORDINATES.map((key, axis) => field(text(key), item.position[axis], (value) => {
-      item.position[axis] = Number(value);
-      this.view?.put(item.id, item.position);
-    }));
+    const places = COORDINATES.map((key, axis) =>
+      field(text(key), item.position[axis], (value) => {
+        item.position[axis] = Number(value);
+        this.view?.put(item.id, item.position);
+      }),
+    );
     const remove = create("button", { type: "button", textContent: text("remove", { item: item.id }) });
-    remove.addEventListener("click", () => { this.#draft.remove(item); this.#list(); });
+    remove.addEventListener("click", () => {
+      this.#draft.remove(item);
+      this.#list();
+    });
     return create("fieldset", {}, legend, name, words, ...places, remove);
   }
 
@@ -130,13 +142,17 @@ export class Editor {
   }
 
   #download() {
-    const link = create("a", { href: URL.createObjectURL(new Blob([this.toml()], { type: "application/toml" })), download: "table.toml" });
+    const link = create("a", {
+      href: URL.createObjectURL(new Blob([this.toml()], { type: "application/toml" })),
+      download: "table.toml",
+    });
     link.click();
     URL.revokeObjectURL(link.href);
   }
 
   async #upload() {
-    const input = find("#upload", HTMLInputElement), file = input.files?.[0];
+    const input = find("#upload", HTMLInputElement),
+      file = input.files?.[0];
     input.value = "";
     if (file) this.#use(await file.text());
   }
@@ -154,7 +170,8 @@ export class Editor {
  * @param {(value: string) => void} onChange
  */
 function field(name, value, onChange) {
-  const input = typeof value === "number" ? create("input", { type: "number", step: "0.01" }) : create("input", { type: "text" });
+  const input =
+    typeof value === "number" ? create("input", { type: "number", step: "0.01" }) : create("input", { type: "text" });
   input.value = String(value);
   input.addEventListener("input", () => onChange(input.value));
   return create("label", {}, name, input);

@@ -1,4 +1,4 @@
-// What browsers have and TypeScript's library of the DOM has not, and what a worker finds in the pose model's own script.
+// What browsers have and TypeScript's library of the DOM has not, and what the pose model's own script brings.
 
 interface Recognition {
   lang: string;
@@ -21,7 +21,11 @@ declare class AudioWorkletProcessor {
 declare function registerProcessor(name: string, processor: new () => AudioWorkletProcessor): void;
 
 declare function importScripts(...addresses: string[]): void;
-interface Joint { x: number; y: number; visibility: number }
+interface Joint {
+  x: number;
+  y: number;
+  visibility: number;
+}
 declare class Pose {
   constructor(settings: { locateFile: (name: string) => string });
   setOptions(options: Record<string, unknown>): void;

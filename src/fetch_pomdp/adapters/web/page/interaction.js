@@ -3,7 +3,8 @@
 import { find } from "./dom.js";
 import { text } from "./texts.js";
 
-/** @import { Acted, Belief, BeliefMessage, Decided, Ended, ErrorMessage, Observed, Say, Scene, ServerMessage, Status, Welcome } from "./messages.js" */
+/** @import { Acted, Belief, BeliefMessage, Decided, Ended, ErrorMessage, Observed } from "./messages.js" */
+/** @import { Say, Scene, ServerMessage, Status, Welcome } from "./messages.js" */
 /** @import { Editor } from "./editor.js" */
 /** @import { Labels } from "./labels.js" */
 /** @import { DecisionPanel, EventLog } from "./panels.js" */
@@ -37,15 +38,24 @@ export class Interaction {
   /** @param {ServerMessage} message */
   receive(message) {
     switch (message.type) {
-      case "welcome": return this.#begin(message);
-      case "belief": return this.#update(message);
-      case "decided": return this.#decide(message);
-      case "observed": return this.#observe(message);
-      case "action": return this.#act(message);
-      case "say": return this.#say(message);
-      case "status": return this.parts.showState(statusLine(message));
-      case "ended": return this.#end(message);
-      case "error": return this.#complain(message);
+      case "welcome":
+        return this.#begin(message);
+      case "belief":
+        return this.#update(message);
+      case "decided":
+        return this.#decide(message);
+      case "observed":
+        return this.#observe(message);
+      case "action":
+        return this.#act(message);
+      case "say":
+        return this.#say(message);
+      case "status":
+        return this.parts.showState(statusLine(message));
+      case "ended":
+        return this.#end(message);
+      case "error":
+        return this.#complain(message);
     }
   }
 
@@ -61,7 +71,8 @@ export class Interaction {
 
   /** @param {Welcome} message */
   #begin(message) {
-    const { view, labels, panel, log, voice, editor, onWelcome, inStudy } = this.parts, { scene, insight } = message;
+    const { view, labels, panel, log, voice, editor, onWelcome, inStudy } = this.parts,
+      { scene, insight } = message;
     this.scene = scene;
     this.insight = insight;
     find("#end").hidden = true;
@@ -95,7 +106,8 @@ export class Interaction {
 
   /** @param {Decided} message */
   #decide(message) {
-    const { action, item } = message, { panel, labels, view } = this.parts;
+    const { action, item } = message,
+      { panel, labels, view } = this.parts;
     panel.decide(message);
     if (action !== "wait" || find("#answers").hidden) labels.about(item ?? null); // a question stays marked
     if (action === "point" && item) view?.robot.ask(item);
@@ -138,7 +150,8 @@ export class Interaction {
 
   /** @param {ErrorMessage} message */
   #complain({ code, message }) {
-    if (!this.parts.editor.refused(message)) this.parts.showState(text(code === "broken" && this.parts.inStudy() ? "broken" : "refused", { message }));
+    if (!this.parts.editor.refused(message))
+      this.parts.showState(text(code === "broken" && this.parts.inStudy() ? "broken" : "refused", { message }));
   }
 }
 

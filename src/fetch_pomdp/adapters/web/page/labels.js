@@ -25,9 +25,11 @@ export function described(item, scene) {
   const along = (way) => (each) => vector(each.position).dot(way);
   /** @param {Vector3} way */
   const spread = (way) => Math.max(...alike.map(along(way))) - Math.min(...alike.map(along(way)));
-  const sideways = spread(right) >= spread(ahead), way = along(sideways ? right : ahead);
+  const sideways = spread(right) >= spread(ahead),
+    way = along(sideways ? right : ahead);
   const place = [...alike].sort((one, other) => way(one) - way(other)).indexOf(item);
-  if (alike.length === 2) return text(`item_${sideways ? ["left", "right"][place] : ["near", "far"][place]}`, { kind: kind(item) });
+  if (alike.length === 2)
+    return text(`item_${sideways ? ["left", "right"][place] : ["near", "far"][place]}`, { kind: kind(item) });
   return text(sideways ? "item_from_left" : "item_from_near", { kind: kind(item), place: place + 1, of: alike.length });
 }
 
@@ -55,12 +57,14 @@ export class Labels {
     this.list.replaceChildren();
     this.#labels.clear();
     for (const item of scene.items) {
-      const name = create("span", { textContent: this.inWords ? kind(item) : item.id }), share = create("span", { className: "percent" });
+      const name = create("span", { textContent: this.inWords ? kind(item) : item.id }),
+        share = create("span", { className: "percent" });
       const bar = create("span", { className: "bar", ariaHidden: "true" }, create("i"));
       const button = create("button", { type: "button" }, name, share);
       button.dataset.item = item.id;
       button.addEventListener("click", () => this.onPress(item.id));
-      const entry = create("li", {}, bar, button), label = { entry, button, name, share, item };
+      const entry = create("li", {}, bar, button),
+        label = { entry, button, name, share, item };
       this.list.append(entry);
       this.#labels.set(item.id, label);
       this.#name(label, null);
@@ -103,7 +107,10 @@ export class Labels {
   /** @param {Label} label @param {number | null} share */
   #name({ button, item, name }, share) {
     const shown = this.inWords && this.#scene ? described(item, this.#scene) : item.id;
-    const label = share === null || !this.#insight ? text("point_at", { item: shown }) : text("point_at_believed", { item: item.id, percent: percent(share) });
+    const label =
+      share === null || !this.#insight
+        ? text("point_at", { item: shown })
+        : text("point_at_believed", { item: item.id, percent: percent(share) });
     button.setAttribute("aria-label", this.inWords ? `${name.textContent}: ${label}` : label);
   }
 }

@@ -4,7 +4,10 @@ import { find } from "./dom.js";
 
 /** @import { SceneChoice, Welcome } from "./messages.js" */
 
-const PANELS = [["#options", "#settings"], ["#edit", "#editor"]]; // each button, and what it opens
+const PANELS = [
+  ["#options", "#settings"],
+  ["#edit", "#editor"],
+]; // each button, and what it opens
 
 export class Menu {
   /** @type {string | null} */
@@ -27,7 +30,10 @@ export class Menu {
     this.#language.addEventListener("change", () => onLanguage(this.#language.value));
     this.#scene.addEventListener("change", onBegin);
     this.#planner.addEventListener("change", onBegin);
-    find("#again").addEventListener("click", () => { onBegin(); find("#say").focus(); });
+    find("#again").addEventListener("click", () => {
+      onBegin();
+      find("#say").focus();
+    });
     this.#thinking.addEventListener("click", () => {
       this.#thinking.setAttribute("aria-pressed", String(!this.#pressed));
       this.#applyThinking();
@@ -38,10 +44,14 @@ export class Menu {
         onEdit(!find("#editor").hidden);
       });
     }
-    document.addEventListener("keydown", (event) => { if (event.key === "Escape") this.#close(); });
+    document.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") this.#close();
+    });
   }
 
-  get planner() { return this.#planner.value; }
+  get planner() {
+    return this.#planner.value;
+  }
 
   /** The table that is chosen. @returns {SceneChoice} */
   get table() {
@@ -49,7 +59,9 @@ export class Menu {
   }
 
   /** @param {string} name */
-  set language(name) { this.#language.value = name; }
+  set language(name) {
+    this.#language.value = name;
+  }
 
   /** Choose a table. @param {SceneChoice} table */
   choose(table) {
@@ -67,7 +79,9 @@ export class Menu {
     this.#planner.value = planner ?? "";
   }
 
-  get #pressed() { return this.#thinking.getAttribute("aria-pressed") === "true"; }
+  get #pressed() {
+    return this.#thinking.getAttribute("aria-pressed") === "true";
+  }
 
   #applyThinking() {
     document.body.classList.toggle("plain", !this.#insight || !this.#pressed);

@@ -26,17 +26,34 @@ export class Microphone {
     this.onHeard = onHeard;
     this.onFail = onFail;
     const button = this.#button;
-    button.addEventListener("pointerdown", () => { if (this.#hold.checked) this.start(); });
-    for (const kind of ["pointerup", "pointerleave"]) button.addEventListener(kind, () => { if (this.#hold.checked) this.stop(); });
-    button.addEventListener("keydown", (event) => { if (this.#hold.checked && event.key === " " && !event.repeat) this.start(); });
-    button.addEventListener("keyup", (event) => { if (this.#hold.checked && event.key === " ") this.stop(); });
-    button.addEventListener("click", () => { if (!this.#hold.checked) this[this.on ? "stop" : "start"](); });
-    for (const choice of findAll("[name=ears]", HTMLInputElement)) choice.addEventListener("change", () => this.#choose());
+    button.addEventListener("pointerdown", () => {
+      if (this.#hold.checked) this.start();
+    });
+    for (const kind of ["pointerup", "pointerleave"])
+      button.addEventListener(kind, () => {
+        if (this.#hold.checked) this.stop();
+      });
+    button.addEventListener("keydown", (event) => {
+      if (this.#hold.checked && event.key === " " && !event.repeat) this.start();
+    });
+    button.addEventListener("keyup", (event) => {
+      if (this.#hold.checked && event.key === " ") this.stop();
+    });
+    button.addEventListener("click", () => {
+      if (!this.#hold.checked) this[this.on ? "stop" : "start"]();
+    });
+    for (const choice of findAll("[name=ears]", HTMLInputElement))
+      choice.addEventListener("change", () => this.#choose());
   }
 
-  get on() { return this.#wanted !== null; }
+  get on() {
+    return this.#wanted !== null;
+  }
 
-  /** Offer the ways of recognising speech that there are here; what is open stays open over a new interaction. @param {boolean} server whether it hears */
+  /**
+   * Offer the ways of recognising speech that there are here; what is open stays open over a new interaction.
+   * @param {boolean} server whether it hears
+   */
   offer(server) {
     find("#server-ears").hidden = !server || !navigator.mediaDevices;
     find("#browser-ears").hidden = !recogniserOf(window);
@@ -44,12 +61,15 @@ export class Microphone {
       if (this.#sound) this.connection.send({ type: "microphone", on: true });
       return;
     }
-    if (server && navigator.mediaDevices && this.#chosen() === "none" && !this.#offered) find("[name=ears][value=server]", HTMLInputElement).checked = true;
+    if (server && navigator.mediaDevices && this.#chosen() === "none" && !this.#offered)
+      find("[name=ears][value=server]", HTMLInputElement).checked = true;
     this.#offered = true;
     this.#choose();
   }
 
-  #chosen() { return find("[name=ears]:checked", HTMLInputElement).value; }
+  #chosen() {
+    return find("[name=ears]:checked", HTMLInputElement).value;
+  }
 
   #choose() {
     this.stop();
@@ -88,7 +108,9 @@ export class Microphone {
 
   /** Sound to the server: 16 kHz, 16 bit, mono. @param {object} wanted */
   async #stream(wanted) {
-    const stream = await navigator.mediaDevices.getUserMedia({ audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true } });
+    const stream = await navigator.mediaDevices.getUserMedia({
+      audio: { channelCount: 1, echoCancellation: true, noiseSuppression: true },
+    });
     const sound = { stream, context: new AudioContext() };
     try {
       await sound.context.audioWorklet.addModule("worklet.js");
@@ -96,7 +118,8 @@ export class Microphone {
       silence(sound);
       throw error;
     }
-    if (this.#wanted !== wanted) { // let go before it was open
+    if (this.#wanted !== wanted) {
+      // let go before it was open
       silence(sound);
       return;
     }
@@ -116,8 +139,12 @@ export class Microphone {
     recogniser.lang = "en-US";
     recogniser.continuous = true;
     recogniser.onresult = ({ results, resultIndex }) => this.onHeard(results[resultIndex][0].transcript);
-    recogniser.onerror = ({ error }) => { if (this.#wanted === wanted) this.#fail(error); };
-    recogniser.onend = () => { if (this.#wanted === wanted) this.stop(); };
+    recogniser.onerror = ({ error }) => {
+      if (this.#wanted === wanted) this.#fail(error);
+    };
+    recogniser.onend = () => {
+      if (this.#wanted === wanted) this.stop();
+    };
     recogniser.start();
   }
 }

@@ -10,7 +10,9 @@ const MOST_ROWS = 12;
 /** Why the robot acts, and what each action is worth. */
 export class DecisionPanel {
   #body = find("#values tbody", HTMLTableSectionElement);
-  /** @type {Map<string, { row: HTMLTableRowElement, belief: HTMLElement, asking: HTMLElement, picking: HTMLElement }>} */
+  /**
+   * @type {Map<string, { row: HTMLTableRowElement, belief: HTMLElement, asking: HTMLElement, picking: HTMLElement }>}
+   */
   #rows = new Map();
   /** @type {Decided | null} */
   #decided = null;
@@ -87,7 +89,11 @@ export class EventLog {
     this.#open = event.type === "observed" ? said : null;
   }
 
-  /** Add to the last line what it did to the belief. even: whether all items count as equally likely. @param {Belief} belief @param {boolean} even */
+  /**
+   * Add to the last line what it did to the belief. even: whether all items count as equally likely.
+   * @param {Belief} belief
+   * @param {boolean} even
+   */
   conclude(belief, even) {
     this.#open?.append(create("em", { textContent: ` → ${even ? text("evenly") : leaders(belief)}` }));
     this.#open = null;
@@ -97,7 +103,8 @@ export class EventLog {
 /** The likeliest items: up to three that are at least half as likely as the first. @param {Belief} belief */
 export function leaders(belief) {
   const sorted = Object.entries(belief).sort((one, other) => other[1] - one[1]);
-  const leading = sorted.filter(([, share]) => share > sorted[0][1] / 2), named = leading.slice(0, 3).map(([id, share]) => `${id} ${percent(share)}`);
+  const leading = sorted.filter(([, share]) => share > sorted[0][1] / 2),
+    named = leading.slice(0, 3).map(([id, share]) => `${id} ${percent(share)}`);
   if (leading.length > 3) named.push(text("more", { number: leading.length - 3 }));
   return text("leads", { items: join(named) });
 }

@@ -26,9 +26,14 @@ export class Pointing {
     this.onPoint = onPoint;
   }
 
-  get on() { return this.#timer !== null; }
+  get on() {
+    return this.#timer !== null;
+  }
 
-  /** Point at a place from now on; null, where there is nothing to point at, changes nothing. @param {Vector3 | null} place */
+  /**
+   * Point at a place from now on; null, where there is nothing to point at, changes nothing.
+   * @param {Vector3 | null} place
+   */
   at(place) {
     if (!place) return;
     this.#target = place;
@@ -54,7 +59,8 @@ export class Pointing {
   }
 
   #send() {
-    if (this.scene && this.#target) this.connection.send({ type: "ray", head: this.scene.head, wrist: wrist(this.scene.head, this.#target) });
+    if (this.scene && this.#target)
+      this.connection.send({ type: "ray", head: this.scene.head, wrist: wrist(this.scene.head, this.#target) });
   }
 }
 

@@ -1,4 +1,5 @@
-// Finds a person's joints in pictures, in a thread of its own. Takes an ImageBitmap, answers with the joints in it or null.
+// Finds a person's joints in pictures, in a thread of its own. Takes an ImageBitmap, answers with the joints in it or
+// null.
 // It is served with a policy of its own, which lets it compile WebAssembly; the page itself may not.
 
 const FOLDER = new URL("vendor/pose/", location.href);
@@ -7,9 +8,13 @@ const FOLDER = new URL("vendor/pose/", location.href);
 /** @returns {Record<string, unknown>} */
 const script = () => ({
   /** @this {Record<string, unknown>} @param {string} key @param {unknown} value */
-  setAttribute(key, value) { this[key] = value; },
+  setAttribute(key, value) {
+    this[key] = value;
+  },
   /** @this {Record<string, unknown>} @param {string} kind @param {() => void} call */
-  addEventListener(kind, call) { this[kind] = call; },
+  addEventListener(kind, call) {
+    this[kind] = call;
+  },
 });
 Object.assign(self, {
   window: self,
@@ -18,7 +23,10 @@ Object.assign(self, {
     createElement: (name) => (name === "canvas" ? new OffscreenCanvas(1, 1) : script()),
     body: {
       /** @param {{ src: string, load: () => void }} element */
-      appendChild(element) { importScripts(element.src); element.load(); },
+      appendChild(element) {
+        importScripts(element.src);
+        element.load();
+      },
     },
   },
 });

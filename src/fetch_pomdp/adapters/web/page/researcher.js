@@ -48,7 +48,10 @@ class ResearcherPage {
       const answer = await this.#ask("researcher/progress");
       again = answer.status !== 401 && answer.status !== 404;
       if (answer.ok) this.#show(await answer.json());
-      else this.#state.textContent = text(answer.status === 401 ? "researcher_wrong" : answer.status === 404 ? "researcher_key" : "researcher_lost");
+      else
+        this.#state.textContent = text(
+          answer.status === 401 ? "researcher_wrong" : answer.status === 404 ? "researcher_key" : "researcher_lost",
+        );
     } catch {
       this.#state.textContent = text("researcher_lost");
     }
@@ -60,7 +63,8 @@ class ResearcherPage {
     this.#progress = study;
     const { title, people, progress } = study;
     find("h1").textContent = document.title = `${inLanguage(title)}: ${text("researcher")}`;
-    const done = progress.filter((each) => each.stage === "done").length, idle = progress.filter((each) => each.of > 0 && each.trials_done === 0).length;
+    const done = progress.filter((each) => each.stage === "done").length,
+      idle = progress.filter((each) => each.of > 0 && each.trials_done === 0).length;
     const line = text("researcher_people", { there: progress.length, people, done, idle });
     if (this.#state.textContent !== line) this.#state.textContent = line; // what stays the same is not read aloud again
     this.#export.disabled = progress.length === 0;
@@ -74,7 +78,10 @@ class ResearcherPage {
     try {
       const answer = await this.#ask("researcher/export");
       if (!answer.ok || !this.#progress) throw new Error(answer.statusText);
-      const link = create("a", { href: URL.createObjectURL(await answer.blob()), download: `${this.#progress.name}.zip` });
+      const link = create("a", {
+        href: URL.createObjectURL(await answer.blob()),
+        download: `${this.#progress.name}.zip`,
+      });
       link.click();
       URL.revokeObjectURL(link.href);
       this.#show(this.#progress);
@@ -95,13 +102,22 @@ class ResearcherPage {
 /** @param {Participant} each */
 function row(each) {
   const made = create("tr", {}, create("th", { scope: "row", textContent: String(each.person) }));
-  for (const value of [each.code, text(`stage_${each.stage}`), `${each.trials_done} / ${each.of}`, each.interruptions, each.given_up, time(each.joined), time(each.last)]) {
+  for (const value of [
+    each.code,
+    text(`stage_${each.stage}`),
+    `${each.trials_done} / ${each.of}`,
+    each.interruptions,
+    each.given_up,
+    time(each.joined),
+    time(each.last),
+  ]) {
     made.insertCell().textContent = String(value);
   }
   return made;
 }
 
 /** @param {string} iso */
-const time = (iso) => new Intl.DateTimeFormat(currentLanguage(), { dateStyle: "short", timeStyle: "short" }).format(new Date(iso));
+const time = (iso) =>
+  new Intl.DateTimeFormat(currentLanguage(), { dateStyle: "short", timeStyle: "short" }).format(new Date(iso));
 
 new ResearcherPage(new URLSearchParams(location.hash.slice(1)).get("token"));

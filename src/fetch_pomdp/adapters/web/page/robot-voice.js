@@ -55,7 +55,8 @@ export class RobotVoice {
     if (key) this.show(key, duration);
     else this.#showLine(line, duration);
     if (!find("#voice", HTMLInputElement).checked) return;
-    if (audio) new Audio(audio).play().catch(() => {}); // before the first click a browser may forbid sound
+    if (audio)
+      new Audio(audio).play().catch(() => {}); // before the first click a browser may forbid sound
     else if (window.speechSynthesis) {
       const spoken = new SpeechSynthesisUtterance(line);
       spoken.lang = "en";
@@ -66,7 +67,11 @@ export class RobotVoice {
 
   /** Put the bubble over the robot's head. @param {TableView} view */
   follow(view) {
-    const { x, y } = view.mouth(), half = this.#bubble.offsetWidth / 2 + MARGIN, width = find("#view-area").clientWidth;
-    this.#bubble.style.transform = `translate(${Math.min(Math.max(x, half), width - half).toFixed(1)}px, ${Math.max(y, TOP).toFixed(1)}px)`;
+    const { x, y } = view.mouth(),
+      half = this.#bubble.offsetWidth / 2 + MARGIN,
+      width = find("#view-area").clientWidth;
+    const left = Math.min(Math.max(x, half), width - half),
+      top = Math.max(y, TOP);
+    this.#bubble.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
   }
 }

@@ -4,7 +4,10 @@ import * as THREE from "./vendor/three.module.min.js";
 
 /** @import { BufferGeometry, Group, Mesh, Vector3 } from "three" */
 
-const WHITE = 0xfafaf8, GREY = 0xb9bec1, DARK = 0x2b3238, ACCENT = 0x1d6f6a;
+const WHITE = 0xfafaf8,
+  GREY = 0xb9bec1,
+  DARK = 0x2b3238,
+  ACCENT = 0x1d6f6a;
 const SHOULDER = { side: 0.25, ahead: 0.02, height: 1.12 };
 const UP = new THREE.Vector3(0, 1, 0);
 
@@ -22,10 +25,22 @@ function part(geometry, colour, roughness = 0.55) {
  */
 function rounded([width, height, depth], radius) {
   const shape = new THREE.Shape();
-  const x = width / 2 - radius, z = height / 2 - radius;
-  shape.absarc(x, z, radius, 0, Math.PI / 2).absarc(-x, z, radius, Math.PI / 2, Math.PI).absarc(-x, -z, radius, Math.PI, 1.5 * Math.PI).absarc(x, -z, radius, 1.5 * Math.PI, 2 * Math.PI);
+  const x = width / 2 - radius,
+    z = height / 2 - radius;
+  shape
+    .absarc(x, z, radius, 0, Math.PI / 2)
+    .absarc(-x, z, radius, Math.PI / 2, Math.PI)
+    .absarc(-x, -z, radius, Math.PI, 1.5 * Math.PI)
+    .absarc(x, -z, radius, 1.5 * Math.PI, 2 * Math.PI);
   const bevel = Math.min(radius * 0.6, depth / 3);
-  const geometry = new THREE.ExtrudeGeometry(shape, { depth: depth - 2 * bevel, bevelThickness: bevel, bevelSize: bevel * 0.9, bevelOffset: -bevel * 0.9, bevelSegments: 5, curveSegments: 10 });
+  const geometry = new THREE.ExtrudeGeometry(shape, {
+    depth: depth - 2 * bevel,
+    bevelThickness: bevel,
+    bevelSize: bevel * 0.9,
+    bevelOffset: -bevel * 0.9,
+    bevelSegments: 5,
+    curveSegments: 10,
+  });
   return geometry.center().rotateX(Math.PI / 2);
 }
 
@@ -59,15 +74,22 @@ class RobotArm {
 
   /** @param {number} side */
   #finger(side) {
-    const joint = new THREE.Group().add(part(new THREE.CapsuleGeometry(0.0125, 0.07, 4, 12).translate(0, 0.045, 0), ACCENT));
+    const joint = new THREE.Group().add(
+      part(new THREE.CapsuleGeometry(0.0125, 0.07, 4, 12).translate(0, 0.045, 0), ACCENT),
+    );
     joint.position.set(side * 0.026, 0.03, 0);
     return joint;
   }
 
   /** How far (m) the wrist may be from the shoulder. */
-  get reach() { return 2 * this.length * 0.995; }
+  get reach() {
+    return 2 * this.length * 0.995;
+  }
 
-  /** Move towards the target by a share of the way, and bend the elbow so that it fits; true while it moves. @param {number} share */
+  /**
+   * Move towards the target by a share of the way, and bend the elbow so that it fits; true while it moves.
+   * @param {number} share
+   */
   step(share) {
     const wanted = this.target.clone().sub(this.shoulder);
     if (wanted.length() > this.reach) wanted.setLength(this.reach);
@@ -77,7 +99,10 @@ class RobotArm {
     const along = way.normalize();
     const outward = new THREE.Vector3(this.side * 0.75, 0.35, -0.8);
     const bend = outward.addScaledVector(along, -outward.dot(along)).normalize();
-    const elbow = this.shoulder.clone().addScaledVector(along, distance / 2).addScaledVector(bend, Math.sqrt(Math.max(this.length ** 2 - distance ** 2 / 4, 0)));
+    const elbow = this.shoulder
+      .clone()
+      .addScaledVector(along, distance / 2)
+      .addScaledVector(bend, Math.sqrt(Math.max(this.length ** 2 - distance ** 2 / 4, 0)));
     this.elbow.position.copy(elbow);
     stretch(this.upper, this.shoulder, elbow);
     stretch(this.lower, elbow, this.hand);
@@ -150,7 +175,8 @@ export class Robot {
     this.group.updateMatrixWorld(true);
     for (const arm of this.arms) moving = arm.step(share) || moving;
     const look = this.local(this.gaze).sub(this.head.position);
-    const turn = Math.atan2(look.x, -look.y), nod = Math.atan2(look.z, Math.hypot(look.x, look.y));
+    const turn = Math.atan2(look.x, -look.y),
+      nod = Math.atan2(look.z, Math.hypot(look.x, look.y));
     const wanted = new THREE.Euler(-Math.max(-0.5, Math.min(0.3, nod)), 0, Math.max(-0.9, Math.min(0.9, turn)), "ZXY");
     this.head.quaternion.slerp(new THREE.Quaternion().setFromEuler(wanted), share);
     for (const each of this.eyes) each.scale.z = blink ? 0.12 : 1;
@@ -160,7 +186,10 @@ export class Robot {
 
 /** @param {number} side */
 function eye(side) {
-  const made = new THREE.Mesh(new THREE.CapsuleGeometry(0.019, 0.016, 4, 16).rotateX(Math.PI / 2), new THREE.MeshBasicMaterial({ color: 0xa8efe6 }));
+  const made = new THREE.Mesh(
+    new THREE.CapsuleGeometry(0.019, 0.016, 4, 16).rotateX(Math.PI / 2),
+    new THREE.MeshBasicMaterial({ color: 0xa8efe6 }),
+  );
   made.position.set(side * 0.062, -0.117, 0.005);
   made.scale.y = 0.35;
   return made;

@@ -42,12 +42,15 @@ export class Study {
   }
 
   /** Whether this is a study: its first stage says so. */
-  get on() { return this.#stage !== null; }
+  get on() {
+    return this.#stage !== null;
+  }
 
   /** Take in a message that the page has shown as any interaction's. @param {ServerMessage} message */
   receive(message) {
     if (message.type === "stage") this.#show(message);
-    else if (message.type === "error") for (const button of [this.#ready, this.#next, this.#giveUp]) button.disabled = false;
+    else if (message.type === "error")
+      for (const button of [this.#ready, this.#next, this.#giveUp]) button.disabled = false;
     else if (this.#trial) this.#play(this.#trial, message);
   }
 
@@ -95,13 +98,20 @@ export class Study {
   /** @param {Trial} trial @param {ServerMessage} message */
   #play(trial, message) {
     switch (message.type) {
-      case "welcome": return this.#set(trial, message);
-      case "countdown": return this.#countDown(trial, message);
-      case "begin": return this.#begin(trial, message);
-      case "heard": return this.#heard();
-      case "decided": return trial.decide(message);
-      case "say": return message.key === "asks" ? this.page.voice.announce(trial.question) : undefined;
-      case "ended": return this.#end(trial, message);
+      case "welcome":
+        return this.#set(trial, message);
+      case "countdown":
+        return this.#countDown(trial, message);
+      case "begin":
+        return this.#begin(trial, message);
+      case "heard":
+        return this.#heard();
+      case "decided":
+        return trial.decide(message);
+      case "say":
+        return message.key === "asks" ? this.page.voice.announce(trial.question) : undefined;
+      case "ended":
+        return this.#end(trial, message);
     }
   }
 
@@ -140,7 +150,8 @@ export class Study {
     find("#countdown").hidden = true;
     this.#letTalk(true, "own_words");
     if (!running) this.page.voice.show("greeting", 4000);
-    if (!running || document.activeElement === document.body || document.activeElement === find("#task-title")) find("#say").focus();
+    if (!running || document.activeElement === document.body || document.activeElement === find("#task-title"))
+      find("#say").focus();
   }
 
   #heard() {

@@ -14,7 +14,11 @@ export class TableDraft {
   /** @param {Scene} scene */
   load(scene) {
     this.head = scene.head;
-    this.items = scene.items.map(({ id, position: [x, y, z], vocabulary }) => ({ id, position: [millimetres(x), millimetres(y), millimetres(z)], words: vocabulary.join(", ") }));
+    this.items = scene.items.map(({ id, position: [x, y, z], vocabulary }) => ({
+      id,
+      position: [millimetres(x), millimetres(y), millimetres(z)],
+      words: vocabulary.join(", "),
+    }));
   }
 
   add() {
@@ -38,12 +42,20 @@ export class TableDraft {
     /** @param {DraftItem} item */
     const distance = ({ position }) => Math.hypot(position[0] - x, position[1] - y);
     const near = this.items.filter((item) => distance(item) < NEAR);
-    return near.reduce((/** @type {DraftItem | null} */ best, item) => (best && distance(best) <= distance(item) ? best : item), null);
+    return near.reduce(
+      (/** @type {DraftItem | null} */ best, item) => (best && distance(best) <= distance(item) ? best : item),
+      null,
+    );
   }
 
-  /** Its scene file (docs/scenes.md). What was typed and is no number becomes `nan`, which the server refuses by name. */
+  /**
+   * Its scene file (docs/scenes.md). What was typed and is no number becomes `nan`, which the server refuses by name.
+   */
   toml() {
-    const tables = this.items.map(({ id, position, words }) => `[[items]]\nid = ${quoted(id)}\nposition = ${place(position)}  # m\nvocabulary = [${wordsOf(words).map(quoted).join(", ")}]\n`);
+    const tables = this.items.map(({ id, position, words }) => {
+      const vocabulary = wordsOf(words).map(quoted).join(", ");
+      return `[[items]]\nid = ${quoted(id)}\nposition = ${place(position)}  # m\nvocabulary = [${vocabulary}]\n`;
+    });
     return [`head = ${place(this.head)}  # m, of the person\n`, ...tables].join("\n");
   }
 }

@@ -9,9 +9,13 @@ import { Robot } from "./robot.js";
 /** @import { Group, Vector3 } from "three" */
 /** @import { Frame } from "./geometry.js" */
 /** @import { Point3, Scene } from "./messages.js" */
-/** @typedef {{ scene: Scene, frame: Frame, head: Vector3, meshes: Map<string, Group>, group: Group }} Table what is shown */
+/**
+ * @typedef {{ scene: Scene, frame: Frame, head: Vector3, meshes: Map<string, Group>, group: Group }} Table what is
+ *   shown
+ */
 
-const ACCENT = 0x1d6f6a, RING = 0xc2410c;
+const ACCENT = 0x1d6f6a,
+  RING = 0xc2410c;
 const TABLE = 0.04; // m thick
 const BLINK = { every: 4300, length: 130 }; // ms
 
@@ -56,7 +60,8 @@ export class TableView {
       this.#world.remove(this.#table.group);
       dispose(this.#table.group);
     }
-    const found = frame(scene), meshes = new Map(scene.items.map((item) => [item.id, itemMesh(item)]));
+    const found = frame(scene),
+      meshes = new Map(scene.items.map((item) => [item.id, itemMesh(item)]));
     const group = new THREE.Group().add(...meshes.values(), ...furniture(scene, found), this.#robot.group);
     this.#table = { scene, frame: found, head: vector(scene.head), meshes, group };
     this.#world.add(group);
@@ -87,15 +92,24 @@ export class TableView {
     this.draw();
   }
 
-  /** Where the table is at a place of the picture (pixels), or what is behind it. @param {number} x @param {number} y */
+  /**
+   * Where the table is at a place of the picture (pixels), or what is behind it.
+   * @param {number} x
+   * @param {number} y
+   */
   at(x, y) {
-    const { clientWidth: width, clientHeight: height } = this.canvas, { meshes, frame: { ahead, height: level } } = this.table;
+    const { clientWidth: width, clientHeight: height } = this.canvas,
+      {
+        meshes,
+        frame: { ahead, height: level },
+      } = this.table;
     const caster = new THREE.Raycaster();
     caster.setFromCamera(new THREE.Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.#camera);
     const found = caster.intersectObjects([...meshes.values()])[0]?.point;
     const board = new THREE.Plane(new THREE.Vector3(0, 0, 1), -level);
     const wall = new THREE.Plane().setFromNormalAndCoplanarPoint(ahead, this.#robot.group.position);
-    const hit = caster.ray.intersectPlane(board, new THREE.Vector3()), behind = caster.ray.intersectPlane(wall, new THREE.Vector3());
+    const hit = caster.ray.intersectPlane(board, new THREE.Vector3()),
+      behind = caster.ray.intersectPlane(wall, new THREE.Vector3());
     const { position: eye } = this.#camera;
     return found ?? (hit && (!behind || hit.distanceTo(eye) < behind.distanceTo(eye)) ? hit : behind);
   }
@@ -143,9 +157,18 @@ export class TableView {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!this.#table || !width || !height) return;
     this.renderer.setSize(width, height, false);
-    const { scene, frame: found, head } = this.#table, at = this.#robot.group.position;
-    const points = outline(scene).filter((_, index) => index % 6 === 0).map((point) => new THREE.Vector3(point.x, point.y, found.height - 0.09));
-    for (const side of [-0.42, 0.42]) points.push(at.clone().addScaledVector(found.right, side).setZ(at.z + 1.74));
+    const { scene, frame: found, head } = this.#table,
+      at = this.#robot.group.position;
+    const points = outline(scene)
+      .filter((_, index) => index % 6 === 0)
+      .map((point) => new THREE.Vector3(point.x, point.y, found.height - 0.09));
+    for (const side of [-0.42, 0.42])
+      points.push(
+        at
+          .clone()
+          .addScaledVector(found.right, side)
+          .setZ(at.z + 1.74),
+      );
     place(this.#camera, found, { head, points, aspect: width / height });
     this.draw();
   }
@@ -154,7 +177,10 @@ export class TableView {
     if (reducedMotion.matches || document.hidden) return;
     this.#blinking = true;
     this.draw();
-    setTimeout(() => { this.#blinking = false; this.draw(); }, BLINK.length);
+    setTimeout(() => {
+      this.#blinking = false;
+      this.draw();
+    }, BLINK.length);
   }
 }
 
@@ -162,14 +188,22 @@ export class TableView {
 function furniture(scene, { middle, height }) {
   const bevel = 0.008;
   const top = new THREE.Mesh(
-    new THREE.ExtrudeGeometry(new THREE.Shape(outline(scene)), { depth: TABLE - 2 * bevel, bevelSize: bevel, bevelThickness: bevel, bevelSegments: 4 }).translate(0, 0, height - TABLE + bevel),
+    new THREE.ExtrudeGeometry(new THREE.Shape(outline(scene)), {
+      depth: TABLE - 2 * bevel,
+      bevelSize: bevel,
+      bevelThickness: bevel,
+      bevelSegments: 4,
+    }).translate(0, 0, height - TABLE + bevel),
     new THREE.MeshStandardMaterial({ color: 0xd9c3a2, roughness: 0.75 }),
   );
   top.receiveShadow = top.castShadow = true;
   const floor = new THREE.Mesh(new THREE.CircleGeometry(9, 64), new THREE.ShadowMaterial({ opacity: 0.16 }));
   floor.position.copy(middle).setZ(0);
   floor.receiveShadow = true;
-  const leg = new THREE.Mesh(new THREE.CylinderGeometry(0.07, 0.13, height, 32).rotateX(Math.PI / 2), new THREE.MeshStandardMaterial({ color: 0x8d8377, roughness: 0.8 }));
+  const leg = new THREE.Mesh(
+    new THREE.CylinderGeometry(0.07, 0.13, height, 32).rotateX(Math.PI / 2),
+    new THREE.MeshStandardMaterial({ color: 0x8d8377, roughness: 0.8 }),
+  );
   leg.position.copy(middle).setZ(height / 2 - TABLE);
   return [top, floor, leg];
 }
@@ -183,17 +217,38 @@ class Lights {
     this.#sun.shadow.mapSize.set(2048, 2048);
     this.#sun.shadow.radius = 5;
     this.#sun.shadow.normalBias = 0.01;
-    this.all = [new THREE.HemisphereLight(0xffffff, 0xdcd8d2, 1.7), this.#sun, this.#sun.target, this.#fill, this.#fill.target];
+    this.all = [
+      new THREE.HemisphereLight(0xffffff, 0xdcd8d2, 1.7),
+      this.#sun,
+      this.#sun.target,
+      this.#fill,
+      this.#fill.target,
+    ];
   }
 
   /** Light a table, and the robot where it stands. @param {Scene} scene @param {Frame} frame @param {Vector3} robot */
   aim(scene, { middle, ahead, right, height }, robot) {
-    this.#sun.position.copy(middle).addScaledVector(right, -1.6).addScaledVector(ahead, -1.4).setZ(height + 3);
+    this.#sun.position
+      .copy(middle)
+      .addScaledVector(right, -1.6)
+      .addScaledVector(ahead, -1.4)
+      .setZ(height + 3);
     this.#sun.target.position.copy(middle);
-    this.#fill.position.copy(middle).addScaledVector(right, 1.2).addScaledVector(ahead, -3).setZ(height + 1.2);
+    this.#fill.position
+      .copy(middle)
+      .addScaledVector(right, 1.2)
+      .addScaledVector(ahead, -3)
+      .setZ(height + 1.2);
     this.#fill.target.position.copy(robot).setZ(height + 0.3);
     const wide = Math.max(1.2, ...scene.items.map((item) => vector(item.position).distanceTo(middle) + 0.6));
-    Object.assign(this.#sun.shadow.camera, { left: -wide, right: wide, top: wide + 0.6, bottom: -wide, near: 0.5, far: 8 });
+    Object.assign(this.#sun.shadow.camera, {
+      left: -wide,
+      right: wide,
+      top: wide + 0.6,
+      bottom: -wide,
+      near: 0.5,
+      far: 8,
+    });
     this.#sun.shadow.camera.updateProjectionMatrix();
   }
 }
@@ -230,7 +285,13 @@ class PointingCone {
 
 /** @param {number} opacity */
 function soft(opacity) {
-  return new THREE.MeshBasicMaterial({ color: ACCENT, transparent: true, opacity, depthTest: false, side: THREE.DoubleSide });
+  return new THREE.MeshBasicMaterial({
+    color: ACCENT,
+    transparent: true,
+    opacity,
+    depthTest: false,
+    side: THREE.DoubleSide,
+  });
 }
 
 /** Triangles between neighbours of a ring of points and its middle. @param {Vector3[]} points */

@@ -18,7 +18,8 @@ export function setLanguage(name) {
   document.documentElement.lang = name;
   for (const element of attributed("data-text")) element.textContent = text(element.dataset.text ?? "");
   for (const element of attributed("data-label")) element.setAttribute("aria-label", text(element.dataset.label ?? ""));
-  for (const element of attributed("data-placeholder")) element.setAttribute("placeholder", text(element.dataset.placeholder ?? ""));
+  for (const element of attributed("data-placeholder"))
+    element.setAttribute("placeholder", text(element.dataset.placeholder ?? ""));
 }
 
 /** @param {string} name @returns {NodeListOf<HTMLElement>} */
@@ -84,7 +85,9 @@ export function percent(share) {
 
 /** @param {number} number */
 export function decimal(number) {
-  return new Intl.NumberFormat(language, { minimumFractionDigits: 2, maximumFractionDigits: 2 }).format(number).replace("-", "−");
+  return new Intl.NumberFormat(language, { minimumFractionDigits: 2, maximumFractionDigits: 2 })
+    .format(number)
+    .replace("-", "−");
 }
 
 /** @param {string[]} list */

@@ -59,10 +59,16 @@ export class Trial {
       left -= 1;
     };
     count();
-    this.#counting = setInterval(() => { if (left > 0) count(); }, 1000);
+    this.#counting = setInterval(() => {
+      if (left > 0) count();
+    }, 1000);
   }
 
-  /** The interaction begins, or goes on at `t` (s). @param {number} t @param {() => void} onGiveUp called once it may be given up */
+  /**
+   * The interaction begins, or goes on at `t` (s).
+   * @param {number} t
+   * @param {() => void} onGiveUp called once it may be given up
+   */
   begin(t, onGiveUp) {
     clearInterval(this.#counting);
     this.#giving = setTimeout(onGiveUp, (this.stage.give_up - t) * 1000);

@@ -17,7 +17,8 @@ class Pcm extends AudioWorkletProcessor {
     const smooth = Math.min(1, 1 - Math.exp((-2 * Math.PI * 7200) / sampleRate)); // nothing above what 16 kHz can hold
     const filtered = block.map((sample) => (this.#low += smooth * (sample - this.#low)));
     for (; this.#next <= filtered.length - 1; this.#next += step) {
-      const left = Math.floor(this.#next), share = this.#next - left;
+      const left = Math.floor(this.#next),
+        share = this.#next - left;
       const from = left < 0 ? this.#before : filtered[left];
       this.#put(from + share * (filtered[Math.min(left + 1, filtered.length - 1)] - from));
     }
