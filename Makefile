@@ -4,7 +4,7 @@ BIN := .venv/bin
 EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
-.PHONY: demo test lint coverage check-all shows audit screenshots film bench picture requirements clean
+.PHONY: demo test lint coverage page check-all shows audit screenshots film bench picture requirements clean
 
 demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
@@ -23,6 +23,16 @@ lint: .venv/tested
 # Compiled code leaves no trace in a coverage report, so the core is measured in a second short run without compilation.
 coverage: .venv/tested
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -n 2 --dist worksteal tests/core -m 'not slow' --cov=src/fetch_pomdp/core --cov-report=term --cov-fail-under=95
+
+# The page's JavaScript: types, lint, and its own tests (node 20 and npm); nothing of this is needed to use or change the rest.
+page: node_modules/.installed
+	npm run --silent types
+	npm run --silent lint
+	npm run --silent test
+
+node_modules/.installed: package.json
+	npm install --no-package-lock --no-audit --no-fund --loglevel=error
+	@touch $@
 
 # What takes long or needs more of the machine: the page in Debian's Chromium, a PostgreSQL, fifty people at once
 # (apt install chromium postgresql espeak-ng flite sox).
@@ -72,4 +82,4 @@ requirements:
 	$(PIN) --extra speech --extra serve -c requirements/bench.txt -o requirements/run.txt
 
 clean:
-	rm -rf .venv .venv-audit .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-audit node_modules .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -31,12 +31,12 @@ def main() -> None:
 def draw_study(address: str) -> None:
     """Take part in a study up to a question, and look at the researcher's page."""
     with visited(address, 1280, 800) as page:
-        page.locator("#paper h2").wait_for()
+        page.locator("#study-page h2").wait_for()
         page.screenshot(path=FOLDER / "study-consent.png")
         for _ in range(2):
-            before = page.locator("#paper h2").inner_text()
-            page.click("#paper .strong")
-            page.wait_for_function("before => document.querySelector('#paper h2')?.innerText !== before", arg=before)
+            before = page.locator("#study-page h2").inner_text()
+            page.click("#study-page .strong")
+            page.wait_for_function("old => document.querySelector('#study-page h2')?.innerText !== old", arg=before)
         page.click("#ready")
         page.wait_for_function("() => !document.querySelector('#say').disabled")
         kind = next(kind for kind in ("marker", "spoon", "bowl") if kind in page.locator("#task-item").inner_text())

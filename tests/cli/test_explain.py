@@ -82,7 +82,7 @@ def test_json_comes_back_as_it_was() -> None:
     assert why.rival is not None
     found = back["explanation"]
     assert found == explanation_to_json(why, agent.scene)
-    assert found["sentence"] == why.sentence(agent.scene)
+    assert found["sentence"] == str(why)
     assert (found["gain"], found["margin"], found["margin_error"]) == (why.gain, why.margin, why.margin_error)
     assert found["log_odds"]["pointing"] == why.rival.log_odds.pointing
 

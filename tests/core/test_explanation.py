@@ -14,9 +14,10 @@ from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.evidence import Evidence
-from fetch_pomdp.core.explain import explain
+from fetch_pomdp.core.explain import even, explain
 from fetch_pomdp.core.explanation import Explanation
 from fetch_pomdp.core.observation import Parts
+from fetch_pomdp.core.phrases import Figure, Phrase, phrase
 from fetch_pomdp.core.planners.base import Decision, Planner, pick_values
 from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import NeverAsk
@@ -65,7 +66,7 @@ def test_the_numbers_are_those_of_the_decision(planner: Planner, said: list[str]
     assert why.rival.item != why.item
     assert why.rival.belief == max(np.delete(agent.belief, why.item)) == agent.belief[why.rival.item]
     assert why.rival.log_odds.total == pytest.approx(math.log(why.belief / why.rival.belief), abs=1e-9)
-    assert why.sentence(agent.scene)
+    assert str(why)
 
 
 def test_planners_explain_nothing_and_the_agent_does() -> None:
@@ -74,8 +75,8 @@ def test_planners_explain_nothing_and_the_agent_does() -> None:
     assert plain.explanation is None
     decision, why = explained(agent)
     assert (decision.action, decision.wait, decision.pick.tolist()) == (plain.action, plain.wait, plain.pick.tolist())
-    expected = explain(plain, Belief.uniform(6), agent.evidence)
-    assert why.sentence(agent.scene) == expected.sentence(agent.scene)
+    expected = explain(plain, Belief.uniform(6), agent.evidence, agent.scene)
+    assert str(why) == str(expected)
 
 
 # Sentences, on a table of named items.
@@ -98,7 +99,7 @@ def reason(
     pointing: dict[int, float] | None = None,
 ) -> str:
     """The sentence for an action; values: of a wait and of asking about each item. words, pointing: log-likelihoods."""
-    return why(action, belief, values, error, unanswered, words or {}, pointing or {}).sentence(SCENE)
+    return str(why(action, belief, values, error, unanswered, words or {}, pointing or {}))
 
 
 def why(
@@ -119,7 +120,7 @@ def why(
         evidence = evidence.asked(unanswered)
     pick = 22.5 * np.array(belief) - 12.5
     decision = Decision(action, values[0], np.full(count, values[1]), pick, error, np.full(count, error))
-    return explain(decision, Belief(belief), evidence)
+    return explain(decision, Belief(belief), evidence, SCENE)
 
 
 def test_asks_about_equal_rivals() -> None:
@@ -197,11 +198,7 @@ def test_picks_by_an_answer() -> None:
     agent = Agent(table([["cup"], ["cup"]]).scene)
     agent.did(Point(0))
     agent.observe("no")
-    assert (
-        explained(agent)[1]
-        .sentence(agent.scene)
-        .startswith("picks item-1: it is 99.0% likely, mostly by the answers; ")
-    )
+    assert str(explained(agent)[1]).startswith("picks item-1: it is 99.0% likely, mostly by the answers; ")
 
 
 def test_the_only_item() -> None:
@@ -209,7 +206,7 @@ def test_the_only_item() -> None:
     decision, found = explained(agent)
     assert decision.action == Pick(0)
     assert found.rival is None
-    assert found.sentence(agent.scene).startswith("picks item-0: it is the only item; picking is worth 10.00, ")
+    assert str(found).startswith("picks item-0: it is the only item; picking is worth 10.00, ")
 
 
 def test_a_planner_that_values_nothing() -> None:
@@ -220,7 +217,7 @@ def test_a_planner_that_values_nothing() -> None:
 
     agent = Agent("ambiguous", Stubborn())
     found = explained(agent)[1]
-    assert found.sentence(agent.scene) == "picks marker-1: nothing tells the 6 items apart yet"
+    assert str(found) == "picks marker-1: nothing tells the 6 items apart yet"
     assert [math.isnan(number) for number in (found.gain, found.margin, found.margin_error)] == [True] * 3
     assert not found.close
 
@@ -228,7 +225,7 @@ def test_a_planner_that_values_nothing() -> None:
 def test_a_planner_that_values_some_questions() -> None:
     point = np.array([NAN, 1.0, 3.0, NAN, NAN, NAN])
     decision = Decision(Wait(), 4.0, point, pick_values(np.array(EQUAL), Agent("ambiguous").problem))
-    found = explain(decision, Belief(EQUAL), Evidence.none(np.log(EQUAL)))
+    found = explain(decision, Belief(EQUAL), Evidence.none(np.log(EQUAL)), SCENE)
     assert (found.question.action, found.question.value, found.gain) == (Point(2), 3.0, -1.0)
 
 
@@ -244,9 +241,7 @@ def test_a_planner_that_values_some_questions() -> None:
 def test_prices_are_those_of_the_scene(rewards: dict[str, float], prices: str) -> None:
     agent = Agent("ambiguous", AlwaysAsk(), rewards=rewards)
     agent.observe("marker")
-    assert explained(agent)[1].sentence(agent.scene) == (
-        f"asks about marker-1: it and marker-2 are equally likely; {prices}"
-    )
+    assert str(explained(agent)[1]) == f"asks about marker-1: it and marker-2 are equally likely; {prices}"
 
 
 def test_digits_follow_the_size_of_the_rewards() -> None:
@@ -255,11 +250,32 @@ def test_digits_follow_the_size_of_the_rewards() -> None:
     # Each pick of six is right once in six: (1 - 5) / 6 of the stake.
     for rewards, expected in ((cheap, "-0.000667"), (dear, "-66667")):
         agent = Agent("ambiguous", ExactAnswers(depth=1), rewards=rewards)
-        assert expected in explained(agent)[1].sentence(agent.scene)
+        assert expected in str(explained(agent)[1])
 
 
 def test_a_thousand_items_stay_a_sentence() -> None:
     agent = Agent(table([["cup"]] * 500 + [["pot"]] * 500, p_g=0.0).scene, AlwaysAsk())
     agent.observe("cup")
     expected = "asks about item-0: it and 499 others are equally likely; a wrong pick costs 12.5, the question 6"
-    assert explained(agent)[1].sentence(agent.scene) == expected
+    assert str(explained(agent)[1]) == expected
+
+
+def test_a_sentence_is_made_of_phrases_for_any_language() -> None:
+    found = why(Pick(3), SURE, (NAN, NAN), 0.0, None, {3: math.log(91 / 5)}, {}).phrase()
+    known = Phrase("why_likely", {"item": Phrase("why_it", {"item": "marker-2"}), "chance": Figure("91%")})
+    stake = Phrase("why_worth_one", {"doing": Phrase("why_picking", {}), "value": Figure("7.98")})
+    assert found.key == "why_sentence"
+    assert found.values["deed"] == Phrase("why_picks", {"item": "marker-2"})
+    reason = {"known": Phrase("why_by_words", {"known": known}), "stake": stake}
+    assert found.values["reason"] == Phrase("why_reason", reason)
+
+
+def test_a_phrase_of_no_template_is_refused() -> None:
+    with pytest.raises(KeyError, match="why_not"):
+        phrase("why_not")
+
+
+def test_beliefs_are_even() -> None:
+    assert even(np.array([0.505, 0.495]))
+    assert not even(np.array([0.51, 0.49]))
+    assert not even(np.array([1.0]))

@@ -53,15 +53,15 @@ class Participant:
             self.found.append(result.generate_report())
 
     def heading(self, text: str) -> None:
-        expect(self.page.locator("#paper h2")).to_have_text(text, timeout=PATIENCE)
-        expect(self.page.locator("#paper h2")).to_be_focused()
+        expect(self.page.locator("#study-page h2")).to_have_text(text, timeout=PATIENCE)
+        expect(self.page.locator("#study-page h2")).to_be_focused()
 
     def agree(self) -> None:
         """Read what there is to read, up to the first round."""
         for _ in range(2):
-            before = self.page.locator("#paper h2").inner_text()
-            self.page.locator("#paper .strong").click()
-            expect(self.page.locator("#paper h2").filter(has_text=re.compile(f"^{before}$"))).to_have_count(0)
+            before = self.page.locator("#study-page h2").inner_text()
+            self.page.locator("#study-page .strong").click()
+            expect(self.page.locator("#study-page h2").filter(has_text=re.compile(f"^{before}$"))).to_have_count(0)
         expect(self.page.locator("#ready")).to_be_visible()
 
     def begin(self) -> str:
@@ -129,15 +129,15 @@ def test_from_consent_to_report(come: Come, study: StudyServer, tmp_path: Path, 
         page.click("#next")
         if number < 2:
             expect(page.locator("#task-title")).to_contain_text(f"{number + 1} ", timeout=PATIENCE)
-    page.fill("#paper textarea", "Markers, I think.")
+    page.fill("#study-page textarea", "Markers, I think.")
     person.look()
-    page.click("#paper .strong")
+    page.click("#study-page .strong")
     expect(page.locator("fieldset.scale")).to_be_visible()
     person.look()
     page.get_by_label("Names").check()
     page.locator("fieldset.scale input").nth(4).check()
     page.set_viewport_size({"width": 390, "height": 844})
-    page.click("#paper .strong")
+    page.click("#study-page .strong")
     completion = page.locator(".code").inner_text()
     person.look()
     assert study.rows("SELECT completion FROM participants") == [(completion,)]
@@ -224,9 +224,9 @@ def test_the_keyboard_is_enough(come: Come) -> None:
         keyboard.press("Enter")
 
     person.heading("Fetching")
-    press("#paper .strong")
+    press("#study-page .strong")
     person.heading("How it goes")
-    press("#paper .strong")
+    press("#study-page .strong")
     press("#ready")
     expect(person.page.locator("#say")).to_be_focused(timeout=PATIENCE)
     keyboard.type("the marker")

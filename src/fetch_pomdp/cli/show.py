@@ -31,7 +31,7 @@ def show_event(event: Event, agent: Agent, console: Console) -> None:
             show_belief(agent, console)
     else:
         why = None if event.decision is None else event.decision.explanation
-        reason = "" if why is None else f"[dim]: {escape(why.reason(agent.scene))}[/dim]"
+        reason = "" if why is None else f"[dim]: {escape(str(why.reason()))}[/dim]"
         line = Table.grid()
         line.add_row(f"[dim]{time}[/dim]", f"[bold]{_acted(event, agent.scene)}[/bold]{reason}")
         console.print(line)
@@ -53,7 +53,7 @@ def _perceived(event: Observed, agent: Agent) -> str:
 
 
 def _acted(event: Acted, scene: Scene) -> str:
-    text = escape(deed(event.action, scene))
+    text = escape(str(deed(event.action, scene)))
     return text if event.done else f"{text} ({event.outcome.value})"
 
 

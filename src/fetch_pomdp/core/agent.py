@@ -126,8 +126,9 @@ class Agent:
         planner = self.planner
         if passes is not None and isinstance(planner, BudgetPlanner):
             planner = planner.with_passes(passes)
-        decision = planner.decide(self.problem, self._belief, self.asked, phase=self.phase, rng=rng)
-        return dataclasses.replace(decision, explanation=explain(decision, self._belief, self._evidence))
+        decision = planner.decide(self.problem, self._belief, self.asked, rng=rng, phase=self.phase)
+        why = explain(decision, self._belief, self._evidence, self.scene)
+        return dataclasses.replace(decision, explanation=why)
 
     def act(self) -> Action:
         """Decide, and go on as if the robot had done it."""

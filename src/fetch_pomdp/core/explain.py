@@ -12,9 +12,10 @@ from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.evidence import Evidence
 from fetch_pomdp.core.explanation import AS_LIKELY, Explanation, Option, Rival
 from fetch_pomdp.core.planners.base import Decision
+from fetch_pomdp.core.scene import Scene
 
 
-def explain(decision: Decision, belief: Belief, evidence: Evidence) -> Explanation:
+def explain(decision: Decision, belief: Belief, evidence: Evidence, scene: Scene) -> Explanation:
     """Return why `decision` was taken at `belief`, which `evidence` led to. Every number is one of theirs.
 
     A wait is about the likeliest item.
@@ -24,17 +25,27 @@ def explain(decision: Decision, belief: Belief, evidence: Evidence) -> Explanati
     item = likeliest if isinstance(decision.action, Wait) else decision.action.item
     chance, rival = float(chances[item]), _rival(chances, item, likeliest)
     return Explanation(
+        scene=scene,
         chosen=_chosen(decision),
         item=item,
         belief=chance,
         rival=None if rival is None else Rival(rival, float(chances[rival]), evidence.log_odds(item, rival)),
-        as_likely=int(np.count_nonzero(np.abs(chances - chance) <= AS_LIKELY * chance)),
-        n_items=len(chances),
+        as_likely=_as_likely(chances, chance),
         wait=_wait(decision),
         question=_question(decision, _best(decision.point, item)),
         pick=_pick(decision, _best(decision.pick, item)),
         unanswered=evidence.unanswered,
     )
+
+
+def even(chances: Vector) -> bool:
+    """Return whether several items, (n_items,), are all as likely as the likeliest, as far as an explanation tells."""
+    return len(chances) > 1 and _as_likely(chances, float(chances.max())) == len(chances)
+
+
+def _as_likely(chances: Vector, chance: float) -> int:
+    """Return how many items count as being as likely as `chance`."""
+    return int(np.count_nonzero(np.abs(chances - chance) <= AS_LIKELY * chance))
 
 
 def _rival(chances: Vector, item: int, likeliest: int) -> int | None:

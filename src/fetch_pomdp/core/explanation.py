@@ -1,12 +1,13 @@
-"""Why a decision was taken: the numbers behind it, and one English sentence made from them alone."""
+"""Why a decision was taken: the numbers behind it, and one sentence made from them alone."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.evidence import LogOdds
+from fetch_pomdp.core.phrases import Figure, Phrase, Value, phrase
 from fetch_pomdp.core.scene import Scene
 
 AS_LIKELY = 0.02  # relative difference of beliefs below which two items count as equally likely
@@ -43,14 +44,14 @@ class Rival:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Explanation:
-    """The reasons of a decision. Beliefs are probabilities, values expected returns."""
+    """The reasons of a decision. Beliefs are probabilities, values expected returns. Prints as a sentence."""
 
+    scene: Scene = field(repr=False)  # the names of the items, and the rewards
     chosen: Option
     item: int  # what the decision is about; a wait is about the likeliest item
     belief: float  # in `item`
     rival: Rival | None  # None on a table of one item
     as_likely: int  # how many items are as likely as `item`, itself included
-    n_items: int
     wait: Option
     question: Option  # the best one
     pick: Option  # the best one
@@ -102,26 +103,30 @@ class Explanation:
         """Whether the margin is within two standard errors."""
         return abs(self.margin) <= 2.0 * self.margin_error
 
-    def sentence(self, scene: Scene) -> str:
-        """Return the decision and why, in one sentence: `scene` gives the names of the items and the rewards."""
-        return f"{deed(self.action, scene)}: {self.reason(scene)}"
+    def phrase(self) -> Phrase:
+        """Return the decision and why, as one sentence that can be said in any language."""
+        return phrase("why_sentence", deed=deed(self.action, self.scene), reason=self.reason())
 
-    def reason(self, scene: Scene) -> str:
+    def reason(self) -> Phrase:
         """Return why, without the decision itself."""
-        known = _knowledge(self, scene)
+        known = _knowledge(self)
         if isinstance(self.action, Point) or (isinstance(self.action, Wait) and not self.chosen.valued):
-            stake = _prices(self, scene)
+            stake = _prices(self)
+        elif self.chosen.valued:
+            stake = _values(self)
         else:
-            stake = _values(self, scene)
-        return "; ".join(part for part in (known, stake) if part)
+            return known
+        return phrase("why_reason", known=known, stake=stake)
+
+    def __str__(self) -> str:
+        return str(self.phrase())
 
 
-def deed(action: Action, scene: Scene) -> str:
+def deed(action: Action, scene: Scene) -> Phrase:
     """Return an action in a few words."""
     if isinstance(action, Wait):
-        return "waits"
-    verb = "asks about" if isinstance(action, Point) else "picks"
-    return f"{verb} {scene.items[action.item].id}"
+        return phrase("why_waits")
+    return phrase("why_asks" if isinstance(action, Point) else "why_picks", item=scene.items[action.item].id)
 
 
 def _highest(*options: Option) -> Option:
@@ -136,104 +141,123 @@ def _error(first: Option, second: Option) -> float:
 # What is known: the first half of a sentence.
 
 
-def _knowledge(why: Explanation, scene: Scene) -> str:
-    item = scene.items[why.item].id if isinstance(why.action, Wait) else "it"
+def _knowledge(why: Explanation) -> Phrase:
+    item = _name(why, why.item)
     if why.unanswered is not None and _awaited(why.action, why.unanswered):
-        about = scene.items[why.unanswered].id if isinstance(why.action, Wait) else "it"
-        return f"the question about {about} is still unanswered"
+        return phrase("why_unanswered", item=_name(why, why.unanswered))
     if why.rival is None:
-        return f"{item} is the only item"
-    if why.as_likely == why.n_items:
-        return f"nothing tells the {why.n_items} items apart yet"
+        return phrase("why_alone", item=item)
+    if why.as_likely == len(why.scene.items):
+        return phrase("why_even", count=Figure(str(why.as_likely)))
     if why.belief >= CERTAIN:
-        return f"{item} is certain" if why.rival.belief == 0.0 else f"{item} is all but certain"
-    return _standing(why, why.rival, item, scene)
+        return phrase("why_certain" if why.rival.belief == 0.0 else "why_almost_certain", item=item)
+    return _standing(why, why.rival, item)
 
 
-def _standing(why: Explanation, against: Rival, item: str, scene: Scene) -> str:
+def _standing(why: Explanation, against: Rival, item: Value) -> Phrase:
     """Return how the item stands to its rival."""
-    odds, named, rival = against.log_odds, scene.items[why.item].id, scene.items[against.item].id
+    odds, rival = against.log_odds, why.scene.items[against.item].id
     if min(odds.words, odds.pointing) <= -TELLING and max(odds.words, odds.pointing) >= TELLING:
-        words, pointed = (named, rival) if odds.words > 0 else (rival, named)
-        return f"speech favours {words} {_ratio(odds.words)} to 1, pointing {pointed} {_ratio(odds.pointing)} to 1"
+        named = why.scene.items[why.item].id
+        said, shown = (named, rival) if odds.words > 0 else (rival, named)
+        return phrase("why_torn", said=said, words=_ratio(odds.words), shown=shown, pointing=_ratio(odds.pointing))
     if isinstance(why.action, Pick) and odds.total >= NEAR:
-        return f"{item} is {_percent(why.belief)} likely{_source(odds)}"
+        return _sourced(phrase("why_likely", item=item, chance=_percent(why.belief)), odds)
     if abs(why.belief - against.belief) <= AS_LIKELY * why.belief:
-        others = rival if why.as_likely <= 2 else f"{why.as_likely - 1} others"
-        return f"{item} and {others} are equally likely"
+        if why.as_likely <= 2:
+            return phrase("why_equal", item=item, other=rival)
+        return phrase("why_equal_many", item=item, count=Figure(str(why.as_likely - 1)))
     if abs(odds.total) < NEAR:
-        return f"{item} and {rival} are almost equally likely"
+        return phrase("why_near", item=item, other=rival)
     likelier, other = (item, rival) if odds.total > 0 else (rival, item)
-    return f"{likelier} is {_ratio(odds.total)} times as likely as {other}"
+    return phrase("why_times", likelier=likelier, ratio=_ratio(odds.total), other=other)
+
+
+def _name(why: Explanation, item: int) -> Value:
+    """Return the id of an item, or a pronoun where what was decided has just named it."""
+    name = why.scene.items[item].id
+    return name if isinstance(why.action, Wait) else phrase("why_it", item=name)
 
 
 def _awaited(action: Action, asked: int) -> bool:
     return isinstance(action, Wait) or (isinstance(action, Point) and action.item == asked)
 
 
-def _source(odds: LogOdds) -> str:
-    """Return which modality gave more than half of the log-odds, if one did."""
+def _sourced(known: Phrase, odds: LogOdds) -> Phrase:
+    """Add which modality gave more than half of the log-odds, if one did."""
     sources = (
-        (odds.words, "what was said"),
-        (odds.answers, "the answers"),
-        (odds.pointing, "the pointing"),
+        (odds.words, "why_by_words"),
+        (odds.pointing, "why_by_pointing"),
+        (odds.answers, "why_by_answers"),
     )
-    most, name = max(sources)
-    return f", mostly by {name}" if most >= TELLING and most > odds.total / 2 else ""
+    most, key = max(sources, key=lambda source: source[0])
+    return phrase(key, known=known) if most >= TELLING and most > odds.total / 2 else known
 
 
-def _ratio(odds: float) -> str:
+def _ratio(odds: float) -> Value:
     """Return e to the absolute log-odds, to two digits."""
     if abs(odds) > math.log(1000.0):
-        return "over 1,000"
+        return phrase("why_over", number=Figure("1,000"))
     ratio = math.exp(abs(odds))
-    return f"{ratio:.1f}".removesuffix(".0") if ratio < 9.95 else f"{ratio:.0f}"
+    return Figure(f"{ratio:.1f}".removesuffix(".0") if ratio < 9.95 else f"{ratio:.0f}")
 
 
-def _percent(chance: float) -> str:
-    return f"{chance:.0%}" if 0.015 <= chance < 0.985 else f"{chance:.1%}"
+def _percent(chance: float) -> Figure:
+    return Figure(f"{chance:.0%}" if 0.015 <= chance < 0.985 else f"{chance:.1%}")
 
 
 # What is at stake: the second half.
 
 
-def _values(why: Explanation, scene: Scene) -> str:
+def _values(why: Explanation) -> Phrase:
     """Return what the three kinds of action are worth, the chosen one first."""
-    if not why.chosen.valued:
-        return ""
     kinds = (option for option in (why.wait, why.question, why.pick) if type(option.action) is not type(why.action))
     others = sorted((option for option in kinds if option.valued), key=lambda option: -option.value)
-    said = [f"{_doing(why.action)} is worth {worth(why.chosen.value, scene)}"]
-    said += [f"{_doing(option.action)} {worth(option.value, scene)}" for option in others]
-    before = ", ".join(said[:-1])
-    return (f"{before} and {said[-1]}" if before else said[-1]) + _doubt(why)
+    more = [phrase("why_other", doing=_doing(each.action), value=_worth(each.value, why.scene)) for each in others]
+    key = ("why_worth_one", "why_worth_two", "why_worth_three")[len(more)]
+    values: dict[str, Value] = {"doing": _doing(why.action), "value": _worth(why.chosen.value, why.scene)}
+    return _doubted(phrase(key, **values, **dict(zip(("second", "third"), more, strict=False))), why)
 
 
-def _prices(why: Explanation, scene: Scene) -> str:
+def _prices(why: Explanation) -> Phrase:
     """Return what a mistake and the action cost, and what a question gains by the planner's values."""
-    rewards = scene.rewards
+    rewards = why.scene.rewards
     asks = isinstance(why.action, Point)
-    price = f"the question {_cost(rewards.point)}" if asks else f"the wait {_cost(rewards.wait)}"
-    wrong = f"costs {_cost(rewards.pick_wrong)}" if rewards.pick_wrong <= 0 else f"earns {rewards.pick_wrong:.4g}"
-    text = f"a wrong pick {wrong}, {price}"
+    price = (
+        phrase("why_question_costs", cost=_cost(rewards.point))
+        if asks
+        else phrase("why_wait_costs", cost=_cost(rewards.wait))
+    )
+    wrong = (
+        phrase("why_wrong_costs", cost=_cost(rewards.pick_wrong))
+        if rewards.pick_wrong <= 0
+        else phrase("why_wrong_earns", gain=Figure(f"{rewards.pick_wrong:.4g}"))
+    )
     if math.isnan(why.margin):
-        return text
-    other, difference = _doing(why.runner_up.action), worth(abs(why.margin), scene)
-    if why.margin < 0:
-        return f"{text}, though {other} is worth {difference} more{_doubt(why)}"
-    return f"{text}, and asking is worth {difference} more than {other}{_doubt(why)}"
+        return phrase("why_prices", wrong=wrong, price=price)
+    key = "why_prices_less" if why.margin < 0 else "why_prices_more"
+    doing, difference = _doing(why.runner_up.action), _worth(abs(why.margin), why.scene)
+    return _doubted(phrase(key, wrong=wrong, price=price, doing=doing, difference=difference), why)
 
 
-def _doubt(why: Explanation) -> str:
-    return ", a close call" if why.close else ""
+def _doubted(stake: Phrase, why: Explanation) -> Phrase:
+    return phrase("why_close", stake=stake) if why.close else stake
 
 
-def _doing(action: Action) -> str:
-    return "waiting" if isinstance(action, Wait) else "asking" if isinstance(action, Point) else "picking"
+def _doing(action: Action) -> Phrase:
+    return phrase(
+        "why_waiting" if isinstance(action, Wait) else "why_asking" if isinstance(action, Point) else "why_picking"
+    )
 
 
-def _cost(reward: float) -> str:
-    return f"{-reward:,.0f}" if reward <= -10_000 else f"{-reward:.4g}" if reward else "nothing"
+def _cost(reward: float) -> Value:
+    if not reward:
+        return phrase("why_nothing")
+    return Figure(f"{-reward:,.0f}" if reward <= -10_000 else f"{-reward:.4g}")
+
+
+def _worth(value: float, scene: Scene) -> Figure:
+    return Figure(worth(value, scene))
 
 
 def worth(value: float, scene: Scene) -> str:

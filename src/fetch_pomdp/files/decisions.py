@@ -11,6 +11,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.evidence import LogOdds
 from fetch_pomdp.core.explanation import Explanation, Option
+from fetch_pomdp.core.phrases import Figure, Phrase, Value
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.events import action_to_json
@@ -49,7 +50,7 @@ def explanation_to_json(why: Explanation, scene: Scene) -> dict[str, Any]:
     ids = [item.id for item in scene.items]
     rival = why.rival
     return {
-        "sentence": why.sentence(scene),
+        "sentence": str(why),
         "item": ids[why.item],
         "belief": why.belief,
         "rival": None if rival is None else ids[rival.item],
@@ -68,6 +69,17 @@ def explanation_to_json(why: Explanation, scene: Scene) -> dict[str, Any]:
         "margin_error": _number(why.margin_error),
         "unanswered": None if why.unanswered is None else ids[why.unanswered],
     }
+
+
+def phrase_to_json(phrase: Phrase) -> dict[str, Any]:
+    """Return a template's key and the values that fill it: phrases, ids, and numbers as English writes them."""
+    return {"key": phrase.key, "values": {name: _value_to_json(value) for name, value in phrase.values.items()}}
+
+
+def _value_to_json(value: Value) -> str | dict[str, Any]:
+    if isinstance(value, Phrase):
+        return phrase_to_json(value)
+    return {"number": value.english} if isinstance(value, Figure) else value
 
 
 def _option_to_json(option: Option, scene: Scene) -> dict[str, Any]:

@@ -9,13 +9,14 @@ from fetch_pomdp.core.action import Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.explain import even
 from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED
 from fetch_pomdp.core.language import split
 from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.words import COURTESY
 from fetch_pomdp.errors import EventError, InputError, StoreError
-from fetch_pomdp.files.decisions import decision_to_json
+from fetch_pomdp.files.decisions import decision_to_json, phrase_to_json
 from fetch_pomdp.files.events import action_to_json, event_to_json
 
 Told = dict[str, Any]
@@ -55,9 +56,12 @@ def belief_by_id(belief: Vector, scene: Scene) -> dict[str, float]:
 def with_insight(update: Update, agent: Agent) -> Told | None:
     """Return an update as a message, with what the robot believes and why; None where there is nothing to tell."""
     if isinstance(update, BeliefChanged):
-        return {**_changed(update), "belief": belief_by_id(update.belief, agent.scene)}
+        return {**_changed(update), "belief": belief_by_id(update.belief, agent.scene), "even": even(update.belief)}
     if isinstance(update, Decided):
-        return {"type": "decided", "t": update.time, **decision_to_json(update.decision, agent.scene)}
+        why = update.decision.explanation
+        phrase = None if why is None else phrase_to_json(why.phrase())
+        fields = decision_to_json(update.decision, agent.scene)
+        return {"type": "decided", "t": update.time, **fields, "phrase": phrase}
     return _outward(update, agent)
 
 

@@ -1,151 +1,178 @@
 // Editing a table: items dragged in the picture, moved with the arrow keys or typed in, saved and opened as TOML.
 
+import { create, find } from "./dom.js";
+import { TableDraft } from "./table-draft.js";
 import { text } from "./texts.js";
 
-const NEAR = 0.12; // m, how far from an item it can be grabbed
+/** @import { Scene } from "./messages.js" */
+/** @import { DraftItem } from "./table-draft.js" */
+/** @import { TableView } from "./table-view.js" */
+/** @import { Vector3 } from "three" */
+
 const NUDGE = 0.01; // m, of an arrow key
+/** @type {Record<string, [number, number]>} */
 const MOVES = { ArrowLeft: [-NUDGE, 0], ArrowRight: [NUDGE, 0], ArrowUp: [0, NUDGE], ArrowDown: [0, -NUDGE] };
 const COORDINATES = ["across", "away", "height"];
 
 export class Editor {
-  constructor(stage, labels, use) {
-    this.stage = stage;
-    this.labels = labels;
-    this.use = use; // called with the TOML of a table to be used
-    this.open = false;
-    this.held = null;
-    this.items = [];
-    this.rows = document.querySelector("#rows");
-    document.querySelector("#add").addEventListener("click", () => this.#add());
-    document.querySelector("#use").addEventListener("click", () => this.#use(this.toml()));
-    document.querySelector("#download").addEventListener("click", () => this.#download());
-    document.querySelector("#upload").addEventListener("change", (event) => this.#upload(event.target));
-    document.querySelector("#items").addEventListener("keydown", (event) => this.#nudge(event));
+  open = false;
+  #draft = new TableDraft();
+  /** @type {DraftItem | null} */
+  #held = null;
+  #sent = false; // a table whose error, if it has one, is still to come
+  #rows = find("#rows");
+
+  /**
+   * @param {TableView | null} view
+   * @param {(toml: string) => void} onUse called with the TOML of a table to be used
+   */
+  constructor(view, onUse) {
+    this.view = view;
+    this.onUse = onUse;
+    find("#add").addEventListener("click", () => this.#add());
+    find("#use").addEventListener("click", () => this.#use(this.toml()));
+    find("#download").addEventListener("click", () => this.#download());
+    find("#upload").addEventListener("change", () => this.#upload());
+    find("#items").addEventListener("keydown", (event) => this.#nudge(event));
   }
 
+  get dragging() {
+    return this.#held !== null;
+  }
+
+  /** @param {Scene} scene */
   load(scene) {
-    this.head = scene.head;
-    this.items = scene.items.map((item) => ({ id: item.id, position: item.position.map((part) => Math.round(part * 1000) / 1000), words: item.vocabulary.join(", ") }));
+    this.#draft.load(scene);
     this.#say("");
     this.#list();
   }
 
-  shown(open) {
+  /** @param {boolean} open */
+  show(open) {
     this.open = open;
-    this.held = null;
+    this.#held = null;
   }
 
-  // An error of the server is the editor's if a table was sent; true if it was.
+  /** An error of the server is the editor's if a table was sent; true if it was. @param {string} message */
   refused(message) {
-    if (!this.sent) return false;
-    this.sent = false;
+    if (!this.#sent) return false;
+    this.#sent = false;
     this.#say(message);
     return true;
   }
 
   toml() {
-    const quoted = (value) => JSON.stringify(value);
-    const number = (value) => (Number.isFinite(value) ? value.toFixed(4).replace(/(\.\d*?[1-9]|\.0)0*$/, "$1") : "nan");
-    const place = (position) => `[${position.map(number).join(", ")}]`;
-    const tables = this.items.map((item) => `[[items]]\nid = ${quoted(item.id)}\nposition = ${place(item.position)}  # m\nvocabulary = [${wordsOf(item).map(quoted).join(", ")}]\n`);
-    return [`head = ${place(this.head)}  # m, of the person\n`, ...tables].join("\n");
+    return this.#draft.toml();
   }
 
-  // Dragging, with a place on the table (Vector3).
-
+  /** @param {Vector3 | null} place */
   grab(place) {
-    if (!place) return;
-    const distance = (item) => Math.hypot(item.position[0] - place.x, item.position[1] - place.y);
-    const nearest = this.items.reduce((best, item) => (distance(item) < distance(best) ? item : best));
-    this.held = distance(nearest) < NEAR ? nearest : null;
+    if (place) this.#held = this.#draft.nearest(place.x, place.y);
   }
 
+  /** @param {Vector3 | null} place */
   drag(place) {
-    if (place) this.#move(this.held, [place.x, place.y]);
+    if (place && this.#held) this.#move(this.#held, place.x, place.y);
   }
 
   drop() {
-    this.held = null;
+    this.#held = null;
   }
 
+  /** @param {KeyboardEvent} event */
   #nudge(event) {
-    const item = this.items.find((each) => each.id === event.target.dataset.item);
+    const id = event.target instanceof HTMLElement ? event.target.dataset.item : undefined;
+    const item = this.#draft.items.find((each) => each.id === id);
     if (!this.open || !item || !(event.key in MOVES)) return;
     event.preventDefault();
-    this.#move(item, MOVES[event.key].map((step, axis) => item.position[axis] + step));
+    const [x, y] = MOVES[event.key];
+    this.#move(item, item.position[0] + x, item.position[1] + y);
   }
 
-  #move(item, [x, y]) {
-    item.position[0] = Math.round(x * 1000) / 1000;
-    item.position[1] = Math.round(y * 1000) / 1000;
-    this.stage?.put(item.id, item.position);
-    const row = this.rows.children[this.items.indexOf(item)];
-    row.querySelectorAll("[type=number]").forEach((input, axis) => { input.value = item.position[axis]; });
+  /** @param {DraftItem} item @param {number} x @param {number} y */
+  #move(item, x, y) {
+    this.#draft.move(item, x, y);
+    this.view?.put(item.id, item.position);
+    const row = this.#rows.children[this.#draft.items.indexOf(item)];
+    row.querySelectorAll("input[type=number]").forEach((input, axis) => {
+      if (input instanceof HTMLInputElement) input.value = String(item.position[axis]);
+    });
   }
 
   #list() {
-    this.rows.replaceChildren(...this.items.map((item) => this.#row(item)));
+    this.#rows.replaceChildren(...this.#draft.items.map((item) => this.#row(item)));
   }
 
+  /** @param {DraftItem} item */
   #row(item) {
-    const row = document.createElement("fieldset"), legend = document.createElement("legend"), remove = document.createElement("button");
-    legend.textContent = item.id;
-    const name = field(text("name"), item.id, "text", (value) => { item.id = value; legend.textContent = value; });
-    const words = field(text("words"), item.words, "text", (value) => { item.words = value; });
+    const legend = create("legend", { textContent: item.id });
+    const name = field(text("name"), item.id, (value) => {
+      item.id = value;
+      legend.textContent = value;
+    });
+    const words = field(text("words"), item.words, (value) => {
+      item.words = value;
+    });
     name.className = words.className = "wide";
-    const places = COORDINATES.map((key, axis) => field(text(key), item.position[axis], "number", (value) => {
-      item.position[axis] = Number(value);
-      this.stage?.put(item.id, item.position);
-    }));
-    remove.type = "button";
-    remove.textContent = text("remove", { item: item.id });
-    remove.addEventListener("click", () => { this.items = this.items.filter((each) => each !== item); this.#list(); });
-    row.append(legend, name, words, ...places, remove);
-    return row;
+    const places = COORDINATES.map((key, axis) =>
+      field(text(key), item.position[axis], (value) => {
+        item.position[axis] = Number(value);
+        this.view?.put(item.id, item.position);
+      }),
+    );
+    const remove = create("button", { type: "button", textContent: text("remove", { item: item.id }) });
+    remove.addEventListener("click", () => {
+      this.#draft.remove(item);
+      this.#list();
+    });
+    return create("fieldset", {}, legend, name, words, ...places, remove);
   }
 
   #add() {
-    const last = this.items.at(-1)?.position ?? [0, 1, 0.75];
-    this.items.push({ id: `item-${this.items.length + 1}`, position: [last[0] + 0.15, last[1], last[2]], words: "cup, red" });
+    this.#draft.add();
     this.#list();
-    this.rows.lastElementChild.querySelector("input").select();
+    this.#rows.lastElementChild?.querySelector("input")?.select();
   }
 
+  /** @param {string} toml */
   #use(toml) {
     this.#say("");
-    this.sent = true;
-    this.use(toml);
+    this.#sent = true;
+    this.onUse(toml);
   }
 
   #download() {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([this.toml()], { type: "application/toml" }));
-    link.download = "table.toml";
+    const link = create("a", {
+      href: URL.createObjectURL(new Blob([this.toml()], { type: "application/toml" })),
+      download: "table.toml",
+    });
     link.click();
     URL.revokeObjectURL(link.href);
   }
 
-  async #upload(input) {
-    const [file] = input.files;
+  async #upload() {
+    const input = find("#upload", HTMLInputElement),
+      file = input.files?.[0];
     input.value = "";
     if (file) this.#use(await file.text());
   }
 
+  /** @param {string} line */
   #say(line) {
-    document.querySelector("#editor-error").textContent = line;
+    find("#editor-error").textContent = line;
   }
 }
 
-function wordsOf(item) {
-  return item.words.split(/[\s,]+/).filter(Boolean);
-}
-
-function field(name, value, type, changed) {
-  const label = document.createElement("label"), input = document.createElement("input");
-  input.type = type;
-  if (type === "number") input.step = "0.01";
-  input.value = value;
-  input.addEventListener("input", () => changed(input.value));
-  label.append(name, input);
-  return label;
+/**
+ * A labelled input: of numbers for a number.
+ * @param {string} name
+ * @param {string | number} value
+ * @param {(value: string) => void} onChange
+ */
+function field(name, value, onChange) {
+  const input =
+    typeof value === "number" ? create("input", { type: "number", step: "0.01" }) : create("input", { type: "text" });
+  input.value = String(value);
+  input.addEventListener("input", () => onChange(input.value));
+  return create("label", {}, name, input);
 }

@@ -1,165 +1,194 @@
 // A study: from consent to completion code, and each trial from the ring around an item to what the robot brought.
 
-import { described } from "./names.js";
-import { inLanguage, Paper } from "./paper.js";
-import { text } from "./texts.js";
+import { find } from "./dom.js";
+import { StudyPages } from "./study-pages.js";
+import { inLanguage, text } from "./texts.js";
+import { canWithdraw, isTrial, Trial } from "./trial.js";
 
-const $ = (selector) => document.querySelector(selector);
-const TRIALS = ["practice", "trials"];
+/** @import { Connection } from "./connection.js" */
+/** @import { Labels } from "./labels.js" */
+/** @import { Begin, Countdown, Ended, ServerMessage, Stage, Welcome } from "./messages.js" */
+/** @import { RobotVoice } from "./robot-voice.js" */
+/** @import { TableView } from "./table-view.js" */
+/**
+ * @typedef {object} Page what a study shows itself with
+ * @property {Connection} connection
+ * @property {TableView | null} view
+ * @property {Labels} labels
+ * @property {RobotVoice} voice
+ * @property {(line: string) => void} showState
+ * @property {() => void} quiet called when the person neither speaks nor points any more
+ * @property {(language: string) => void} choose
+ */
 
 export class Study {
+  /** @type {Stage | null} */
+  #stage = null;
+  /** @type {Trial | null} */
+  #trial = null;
+  #ready = find("#ready", HTMLButtonElement);
+  #next = find("#next", HTMLButtonElement);
+  #giveUp = find("#give-up", HTMLButtonElement);
+
+  /** @param {Page} page */
   constructor(page) {
-    this.page = page; // connection, stage, labels, announce, bubble, choose
-    this.on = false;
-    this.paper = new Paper($("#paper"), page.connection, (language) => page.choose(language));
-    $("#ready").addEventListener("click", () => this.#send("ready", "#ready"));
-    $("#next").addEventListener("click", () => this.#send("next", "#next"));
-    $("#give-up").addEventListener("click", () => this.#send("give_up", "#give-up"));
-    $("#withdraw").addEventListener("click", () => $("#leaving").showModal());
-    $("#leave").addEventListener("click", () => page.connection.withdraw());
+    this.page = page;
+    this.pages = new StudyPages(find("#study-page"), page.connection, page.choose);
+    this.#ready.addEventListener("click", () => this.#send("ready", this.#ready));
+    this.#next.addEventListener("click", () => this.#send("next", this.#next));
+    this.#giveUp.addEventListener("click", () => this.#send("give_up", this.#giveUp));
+    find("#withdraw").addEventListener("click", () => find("#leaving", HTMLDialogElement).showModal());
+    find("#leave").addEventListener("click", () => page.connection.withdraw());
   }
 
-  // Know of a message that the page has dealt with.
-  told(message) {
-    ({
-      stage: this.#stage, welcome: this.#welcome, countdown: this.#countdown, begin: this.#begin, heard: this.#heard,
-      decided: this.#decided, say: this.#said, ended: this.#ended, error: this.#error,
-    })[message.type]?.call(this, message);
+  /** Whether this is a study: its first stage says so. */
+  get on() {
+    return this.#stage !== null;
   }
 
-  // Another language was chosen.
-  again() {
-    if (!this.on) return;
-    this.paper.again();
-    this.#name();
+  /** Take in a message that the page has shown as any interaction's. @param {ServerMessage} message */
+  receive(message) {
+    if (message.type === "stage") this.#show(message);
+    else if (message.type === "error")
+      for (const button of [this.#ready, this.#next, this.#giveUp]) button.disabled = false;
+    else if (this.#trial) this.#play(this.#trial, message);
   }
 
-  #stage(message) {
-    this.on = true;
-    const trial = TRIALS.includes(message.stage);
-    this.message = message;
-    this.scene = null;
-    this.page.show("");
+  /** Say it again, in a language that was chosen meanwhile. */
+  translate() {
+    if (!this.#stage) return;
+    this.pages.translate();
+    this.#name(this.#stage);
+    if (this.#trial?.scene) this.#describe(this.#trial);
+  }
+
+  /** @param {Stage} stage */
+  #show(stage) {
+    this.#trial?.end();
+    this.#stage = stage;
+    this.#trial = isTrial(stage) ? new Trial(stage) : null;
+    this.page.showState("");
     document.body.classList.add("study");
-    document.body.classList.toggle("reading", !trial);
-    $("#paper").hidden = trial;
-    $("#task").hidden = !trial;
-    $("#withdraw").hidden = ["withdrawn", "declined", "full"].includes(message.stage);
-    this.page.labels.described = described;
-    if (message.stage === "withdrawn") this.page.connection.forget();
-    this.#name();
-    clearInterval(this.counting);
-    clearTimeout(this.giving);
-    if (trial) this.paper.hide();
+    document.body.classList.toggle("reading", !this.#trial);
+    find("#study-page").hidden = this.#trial !== null;
+    find("#task").hidden = !this.#trial;
+    find("#withdraw").hidden = !canWithdraw(stage);
+    this.page.labels.inWords = true;
+    if (stage.stage === "withdrawn") this.page.connection.forget();
+    this.#name(stage);
+    if (isTrial(stage)) this.pages.hide();
     else {
       this.page.quiet();
-      this.paper.show(message);
+      this.pages.show(stage);
     }
   }
 
-  #name() {
-    const { title } = this.message;
-    $("h1").textContent = document.title = inLanguage(title);
-    if (this.scene && TRIALS.includes(this.message.stage)) this.#describe();
+  /** @param {Stage} stage */
+  #name({ title }) {
+    find("h1").textContent = document.title = inLanguage(title);
   }
 
-  #describe() {
-    const { stage, order, of, desired } = this.message;
-    const item = this.scene.items.find((each) => each.id === desired);
-    $("#task-title").textContent = text(stage === "practice" ? "round_practice" : "round", { round: order + 1, of });
-    $("#task-item").textContent = text("desired", { item: described(item, this.scene) });
-    this.page.labels.desire(desired, text("desired_here"));
+  /** @param {Trial} trial */
+  #describe(trial) {
+    find("#task-title").textContent = trial.title;
+    find("#task-item").textContent = trial.task;
+    this.page.labels.desire(trial.stage.desired, text("desired_here"));
   }
 
-  #welcome(message) {
-    if (!this.on) return;
-    this.scene = message.scene;
-    this.page.stage?.encircle(this.message.desired);
-    this.#describe();
-    for (const selector of ["#countdown", "#give-up", "#next"]) $(selector).hidden = true;
-    this.#enable("#ready", !this.message.running);
-    this.#talking(false, "not_yet");
-    $("#task-title").focus();
-    if (message.asked) {
-      this.about = message.asked;
-      this.page.stage?.ask(message.asked);
-      $("#answers").hidden = false;
-      this.page.bubble("asks", null);
-      this.page.labels.about(message.asked);
-      this.#said({ key: "asks" });
+  /** @param {Trial} trial @param {ServerMessage} message */
+  #play(trial, message) {
+    switch (message.type) {
+      case "welcome":
+        return this.#set(trial, message);
+      case "countdown":
+        return this.#countDown(trial, message);
+      case "begin":
+        return this.#begin(trial, message);
+      case "heard":
+        return this.#heard();
+      case "decided":
+        return trial.decide(message);
+      case "say":
+        return message.key === "asks" ? this.page.voice.announce(trial.question) : undefined;
+      case "ended":
+        return this.#end(trial, message);
     }
   }
 
-  #countdown({ seconds }) {
-    $("#ready").hidden = true;
-    $("#countdown").hidden = seconds < 0.5;
-    let left = Math.ceil(seconds);
-    const count = () => {
-      $("#countdown").textContent = left;
-      this.page.announce(String(left));
-      left -= 1;
-    };
-    count();
-    this.counting = setInterval(() => { if (left > 0) count(); }, 1000);
+  /** @param {Trial} trial @param {Welcome} message */
+  #set(trial, { scene, asked }) {
+    trial.scene = scene;
+    this.page.view?.encircle(trial.stage.desired);
+    this.#describe(trial);
+    for (const selector of ["#countdown", "#give-up", "#next"]) find(selector).hidden = true;
+    enable(this.#ready, !trial.stage.running);
+    this.#letTalk(false, "not_yet");
+    find("#task-title").focus();
+    if (!asked) return;
+    trial.about = asked;
+    this.page.view?.robot.ask(asked);
+    find("#answers").hidden = false;
+    this.page.voice.show("asks", null);
+    this.page.labels.about(asked);
+    this.page.voice.announce(trial.question);
   }
 
-  #begin({ t }) {
-    clearInterval(this.counting);
-    $("#countdown").hidden = true;
-    this.#talking(true, "own_words");
-    if (!this.message.running) this.page.bubble("greeting", 4000);
-    if (!this.message.running || document.activeElement === document.body || document.activeElement === $("#task-title")) $("#say").focus();
-    this.giving = setTimeout(() => this.#enable("#give-up", true), (this.message.give_up - t) * 1000);
+  /** @param {Trial} trial @param {Countdown} message */
+  #countDown(trial, { seconds }) {
+    this.#ready.hidden = true;
+    find("#countdown").hidden = seconds < 0.5;
+    trial.countDown(seconds, (left) => {
+      find("#countdown").textContent = String(left);
+      this.page.voice.announce(String(left));
+    });
+  }
+
+  /** @param {Trial} trial @param {Begin} message */
+  #begin(trial, { t }) {
+    const { running } = trial.stage;
+    trial.begin(t, () => enable(this.#giveUp, true));
+    find("#countdown").hidden = true;
+    this.#letTalk(true, "own_words");
+    if (!running) this.page.voice.show("greeting", 4000);
+    if (!running || document.activeElement === document.body || document.activeElement === find("#task-title"))
+      find("#say").focus();
   }
 
   #heard() {
-    if (!$("#answers").hidden) $("#bubble").hidden = true;
-    $("#answers").hidden = true;
-    this.page.stage?.rest();
+    if (!find("#answers").hidden) this.page.voice.hide();
+    find("#answers").hidden = true;
+    this.page.view?.robot.rest();
   }
 
-  #decided({ action, item }) {
-    if (this.on && action !== "wait") this.about = item;
+  /** @param {Trial} trial @param {Ended} message */
+  #end(trial, { picked }) {
+    trial.end();
+    this.#giveUp.hidden = true;
+    this.#letTalk(false, "over");
+    const line = trial.outcome(picked);
+    find("#outcome").textContent = line;
+    find("#end").hidden = false;
+    enable(this.#next, true);
+    this.#next.focus();
+    this.page.voice.announce(line);
   }
 
-  // Who does not see the table is told what the robot points at.
-  #said({ key }) {
-    if (!this.on || key !== "asks") return;
-    const item = this.scene.items.find((each) => each.id === this.about);
-    this.page.announce(text("points_at", { item: described(item, this.scene) }));
+  /** @param {boolean} now @param {string} note */
+  #letTalk(now, note) {
+    for (const control of find("#talk", HTMLFormElement).elements) control.toggleAttribute("disabled", !now);
+    if (!now) find("#answers").hidden = true;
+    find("#say", HTMLInputElement).placeholder = text(note);
   }
 
-  #ended({ picked }) {
-    if (!this.on) return;
-    clearTimeout(this.giving);
-    $("#give-up").hidden = true;
-    this.#talking(false, "over");
-    const item = this.scene.items.find((each) => each.id === picked);
-    const line = item ? text("brought", { item: described(item, this.scene) }) : text("brought_none");
-    $("#outcome").textContent = line;
-    $("#end").hidden = false;
-    this.#enable("#next", true);
-    $("#next").focus();
-    this.page.announce(line);
-  }
-
-  #error() {
-    for (const selector of ["#ready", "#next", "#give-up"]) $(selector).disabled = false;
-  }
-
-  #talking(now, note) {
-    for (const control of $("#talk").elements) control.disabled = !now;
-    if (!now) $("#answers").hidden = true;
-    $("#say").placeholder = text(note);
-  }
-
-  #enable(selector, shown) {
-    $(selector).hidden = !shown;
-    $(selector).disabled = false;
-  }
-
-  #send(type, selector) {
-    $(selector).disabled = true; // a second click is none
+  /** @param {"ready" | "next" | "give_up"} type @param {HTMLButtonElement} button */
+  #send(type, button) {
+    button.disabled = true; // a second click is none
     this.page.connection.send({ type });
   }
+}
+
+/** @param {HTMLButtonElement} button @param {boolean} shown */
+function enable(button, shown) {
+  button.hidden = !shown;
+  button.disabled = false;
 }

@@ -10,13 +10,15 @@ class Pcm extends AudioWorkletProcessor {
   #before = 0; // the last sample of the block before
   #low = 0;
 
+  /** Take a block of the first input's first channel; true asks for more. @param {Float32Array[][]} inputs */
   process([[block]]) {
     if (!block) return true;
     const step = sampleRate / RATE;
     const smooth = Math.min(1, 1 - Math.exp((-2 * Math.PI * 7200) / sampleRate)); // nothing above what 16 kHz can hold
     const filtered = block.map((sample) => (this.#low += smooth * (sample - this.#low)));
     for (; this.#next <= filtered.length - 1; this.#next += step) {
-      const left = Math.floor(this.#next), share = this.#next - left;
+      const left = Math.floor(this.#next),
+        share = this.#next - left;
       const from = left < 0 ? this.#before : filtered[left];
       this.#put(from + share * (filtered[Math.min(left + 1, filtered.length - 1)] - from));
     }
@@ -25,6 +27,7 @@ class Pcm extends AudioWorkletProcessor {
     return true;
   }
 
+  /** @param {number} sample from -1 to 1 */
   #put(sample) {
     this.#chunk[this.#filled] = Math.max(-1, Math.min(1, sample)) * 32767;
     this.#filled += 1;

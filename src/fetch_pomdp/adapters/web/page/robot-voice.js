@@ -1,0 +1,77 @@
+// What the robot says: in a bubble over the picture, to screen readers, and aloud.
+
+import { create, find } from "./dom.js";
+import { english, isEnglish, text } from "./texts.js";
+
+/** @import { Say } from "./messages.js" */
+/** @import { TableView } from "./table-view.js" */
+
+const MARGIN = 8; // pixels, of the bubble to the sides of the picture
+const TOP = 76; // pixels, of the bubble to the top
+
+export class RobotVoice {
+  #bubble = find("#bubble");
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timer;
+
+  /** @param {TableView | null} view */
+  constructor(view) {
+    this.view = view;
+  }
+
+  /**
+   * Show one of the page's texts in a bubble, in English and, beneath it, in the page's language.
+   * @param {string} key
+   * @param {number | null} duration ms; null: until something else is shown or the question is answered
+   */
+  show(key, duration) {
+    const translated = isEnglish() ? [] : [create("small", { textContent: text(key) })];
+    this.#showLine(english(key), duration, translated);
+  }
+
+  /** @param {string} line @param {number | null} duration @param {HTMLElement[]} translated */
+  #showLine(line, duration, translated = []) {
+    this.#bubble.replaceChildren(line, ...translated);
+    this.#bubble.lang = "en";
+    this.#bubble.hidden = false;
+    this.announce(line);
+    clearTimeout(this.#timer);
+    if (duration !== null) this.#timer = setTimeout(() => this.hide(), duration);
+    this.view?.draw();
+  }
+
+  hide() {
+    this.#bubble.hidden = true;
+  }
+
+  /** Tell screen readers. @param {string} line */
+  announce(line) {
+    find("#spoken").textContent = line;
+  }
+
+  /** Say something: the server's sound if there is one, else the browser's voice. @param {Say} message */
+  say({ key, text: line, audio }) {
+    const duration = key === "asks" ? null : 3500;
+    if (key) this.show(key, duration);
+    else this.#showLine(line, duration);
+    if (!find("#voice", HTMLInputElement).checked) return;
+    if (audio)
+      new Audio(audio).play().catch(() => {}); // before the first click a browser may forbid sound
+    else if (window.speechSynthesis) {
+      const spoken = new SpeechSynthesisUtterance(line);
+      spoken.lang = "en";
+      speechSynthesis.cancel();
+      speechSynthesis.speak(spoken);
+    }
+  }
+
+  /** Put the bubble over the robot's head. @param {TableView} view */
+  follow(view) {
+    const { x, y } = view.mouth(),
+      half = this.#bubble.offsetWidth / 2 + MARGIN,
+      width = find("#view-area").clientWidth;
+    const left = Math.min(Math.max(x, half), width - half),
+      top = Math.max(y, TOP);
+    this.#bubble.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+  }
+}
