@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE, tokenize
 from fetch_pomdp.errors import InputError, ModelError, SceneError
 from tests.oracles.model import NO_WORDS, YES_WORDS
 
@@ -197,21 +197,6 @@ def test_names_of_no_scene(name: str) -> None:
 def test_a_folder_is_no_scene(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="cannot be read"):
         Scene.load(tmp_path)
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("", ()),
-        (" ...?! ", ()),
-        ("The GREEN marker, please.", ("the", "green", "marker", "please")),
-        ("it's a T-shirt; no—yes", ("it's", "a", "t-shirt", "no", "yes")),
-        ("'quoted' -dashed- under_score", ("quoted", "dashed", "under", "score")),
-        ("Löffel 7", ("löffel", "7")),
-    ],
-)
-def test_tokenize(text: str, words: tuple[str, ...]) -> None:
-    assert tokenize(text) == words
 
 
 def test_problem_holds_the_scene_as_arrays() -> None:

@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from fetch_pomdp.checks import Point3, shown
-from fetch_pomdp.core import language
 from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
@@ -21,14 +20,15 @@ from fetch_pomdp.core.evidence import Evidence
 from fetch_pomdp.core.explain import explain
 from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
-from fetch_pomdp.core.language import Utterance
+from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.unigram import Utterance
+from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner, whole_number
 from fetch_pomdp.core.planners.fitted import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.core.words import tokenize
 from fetch_pomdp.errors import ActionError, ObservationError
 
 
@@ -101,7 +101,7 @@ class Agent:
 
     def update(self, observation: Observation) -> Utterance:
         """Take in an observation; return how its words were understood."""
-        utterance = language.split(observation.words, self.problem)
+        utterance = unigram.split(observation.words, self.problem)
         parts = observations.log_likelihoods(observation, self.asked, self.problem, self.problem.model.p_l)
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
         self._evidence = self._evidence.plus(parts, answered=bool(utterance.response))

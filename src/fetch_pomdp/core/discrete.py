@@ -16,14 +16,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fetch_pomdp.checks import shown
-from fetch_pomdp.core import gesture, language
+from fetch_pomdp.core import gesture
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.compiled import Vector, compiled
+from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.words import POSITIVE
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.kernels import NO, SILENT, YES
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import turned
-from fetch_pomdp.core.words import POSITIVE
 from fetch_pomdp.errors import ModelError, ObservationError, SceneError
 
 MOST_RINGS = 16
@@ -75,7 +76,7 @@ class Discrete:
 
         asked: index of i_r after the action, or None.
         """
-        rate, truth = language.answer_rate(action, self.problem), self.problem.model.p_truth
+        rate, truth = unigram.answer_rate(action, self.problem), self.problem.model.p_truth
         yes = np.full(self.problem.n_items, 0.5 if asked is None else 1.0 - truth)
         if asked is not None:
             yes[asked] = truth
@@ -91,7 +92,7 @@ class Discrete:
 
         Raises ObservationError for more than one word or response of the scene: the model's people say one at a time.
         """
-        utterance = language.split(observation.words, self.problem)
+        utterance = unigram.split(observation.words, self.problem)
         for name, heard in (("words", utterance.base), ("responses", utterance.response)):
             if len(heard) > 1:
                 raise ObservationError(

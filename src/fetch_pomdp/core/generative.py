@@ -8,7 +8,7 @@ from numpy.random import Generator
 
 from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick, Point
-from fetch_pomdp.core.language import answer_rate
+from fetch_pomdp.core.language.unigram import answer_rate
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 

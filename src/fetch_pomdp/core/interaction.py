@@ -33,13 +33,13 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language.words import NEGATIVE, RESPONSES, STOPS, tokenize
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import nearest_angles
 from fetch_pomdp.core.simulation import MOST_STEPS
-from fetch_pomdp.core.words import NEGATIVE, RESPONSES, STOPS, tokenize
 from fetch_pomdp.errors import ModelError
 
 LISTENING = "I am listening."

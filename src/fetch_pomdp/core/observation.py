@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 from numpy.random import Generator
 
-from fetch_pomdp.core import gesture, language
+from fetch_pomdp.core import gesture
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.problem import Problem
 
 
@@ -39,18 +40,18 @@ def log_likelihoods(observation: Observation, asked: int | None, problem: Proble
     """Log p(o | i_d, i_r) for each item as the desired one (Eq. 1-3), part by part: given the state they are
     independent.
 
-    asked: index of i_r, or None. rate: chance of a response, see `language.answer_rate`.
+    asked: index of i_r, or None. rate: chance of a response, see `unigram.answer_rate`.
     """
-    utterance = language.split(observation.words, problem)
+    utterance = unigram.split(observation.words, problem)
     return Parts(
-        language.base_log_likelihood(utterance.base, problem),
-        language.response_log_likelihood(utterance.response, asked, problem, rate),
+        unigram.base_log_likelihood(utterance.base, problem),
+        unigram.response_log_likelihood(utterance.response, asked, problem, rate),
         gesture.log_likelihood(observation.ray, problem),
     )
 
 
 def sample(desired: int, asked: int | None, problem: Problem, rate: float, rng: Generator) -> Observation:
-    """Draw an observation o ~ p(o | i_d, i_r). rate: chance of a response, see `language.answer_rate`."""
-    base = language.sample_base(desired, problem, rng)
-    response = language.sample_response(desired, asked, problem, rate, rng)
+    """Draw an observation o ~ p(o | i_d, i_r). rate: chance of a response, see `unigram.answer_rate`."""
+    base = unigram.sample_base(desired, problem, rng)
+    response = unigram.sample_response(desired, asked, problem, rate, rng)
     return Observation(base + response, gesture.sample(desired, problem, rng))

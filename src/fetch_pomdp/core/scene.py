@@ -10,9 +10,9 @@ from typing import Any, Self
 
 from fetch_pomdp import checks
 from fetch_pomdp.checks import Point3
+from fetch_pomdp.core.language.words import RESPONSES, tokenize
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.model import Model, Rewards
-from fetch_pomdp.core.words import RESPONSES, tokenize
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError, SceneError
 

@@ -24,7 +24,7 @@ from fetch_pomdp.core.action import Action, Pick
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.discrete import Discrete, all_actions
-from fetch_pomdp.core.language import answer_rate
+from fetch_pomdp.core.language.unigram import answer_rate
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import ActionError, ModelError, ObservationError

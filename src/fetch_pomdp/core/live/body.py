@@ -6,12 +6,12 @@ import logging
 from collections.abc import Callable
 from typing import Protocol
 
+from fetch_pomdp.core.language.words import NEGATIVE, STOPS, tokenize
 from fetch_pomdp.core.live.inbox import Inbox
 from fetch_pomdp.core.live.updates import State
 from fetch_pomdp.core.live.vitals import Vitals
 from fetch_pomdp.core.ports import Outcome, Robot
 from fetch_pomdp.core.scene import Item
-from fetch_pomdp.core.words import NEGATIVE, STOPS, tokenize
 
 logger = logging.getLogger(__name__)
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, lean, standard_normal, uniform
 from fetch_pomdp.core.gesture import ray_likelihood
-from fetch_pomdp.core.language import draw_word
+from fetch_pomdp.core.language.unigram import draw_word
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.rays import turned
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, inlined, lean, uniform
-from fetch_pomdp.core.language import draw_word
+from fetch_pomdp.core.language.unigram import draw_word
 from fetch_pomdp.core.planners.kernels import draw_item, hear_word, see, see_nothing
 from fetch_pomdp.core.problem import Problem, Tables
 

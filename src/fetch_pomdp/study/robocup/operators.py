@@ -10,10 +10,10 @@ import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp import checks
-from fetch_pomdp.core import language
 from fetch_pomdp.core.action import Action, Point
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray, is_pointing
+from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.layouts import HEAD, TABLE_HEIGHT
 from fetch_pomdp.core.model import Model
 from fetch_pomdp.core.observation import Observation
@@ -95,8 +95,8 @@ class Guest:
 
     def respond(self, action: Action, asked: int | None) -> Observation:
         """Return an answer after a question, and a ray most of the time."""
-        rate = language.answer_rate(action, self.problem)
-        words = language.sample_response(self.desired, asked, self.problem, rate, self.rng) if asked is not None else ()
+        rate = unigram.answer_rate(action, self.problem)
+        words = unigram.sample_response(self.desired, asked, self.problem, rate, self.rng) if asked is not None else ()
         if isinstance(action, Point) and self.rng.random() < self.unknown:
             words = UNKNOWN
         return Observation(words, self._ray())

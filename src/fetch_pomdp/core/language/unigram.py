@@ -15,8 +15,8 @@ from numpy.random import Generator
 
 from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Vector, inlined
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.core.problem import Problem, Tables
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE, RESPONSES
 
 Words = tuple[str, ...]
 
