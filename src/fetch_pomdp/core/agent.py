@@ -21,6 +21,7 @@ from fetch_pomdp.core.explain import explain
 from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
 from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.model import Model, Rewards
@@ -54,6 +55,7 @@ class Agent:
         changed_model = model if isinstance(model, Model) else table.model.with_changes(model or {})
         changed_rewards = rewards if isinstance(rewards, Rewards) else table.rewards.with_changes(rewards or {})
         self.problem = Problem(dataclasses.replace(table, model=changed_model, rewards=changed_rewards))
+        self.answers: Lexicon = lexicon(table.answers, self.problem.words)
         self.planner: Planner = planner if planner is not None else FittedValue()
         self.seed = whole_number(seed, 0, 2**63 - 1, "seed")
         self.asked: int | None = None  # i_r, as an index into the scene's items
@@ -80,6 +82,11 @@ class Agent:
         return self._evidence
 
     @property
+    def after(self) -> After:
+        """What the words heard next follow: a question as long as none of them has answered it, or nothing."""
+        return After.NOTHING if self._evidence.unanswered is None else After.QUESTION
+
+    @property
     def scene(self) -> Scene:
         """The table, with the model and rewards in force."""
         return self.problem.scene
@@ -87,7 +94,7 @@ class Agent:
     def observe(
         self, utterance: str | None = None, *, head: Point3 | None = None, wrist: Point3 | None = None
     ) -> Utterance:
-        """Take in what was said and seen in a step; return how the words were understood.
+        """Take in what was said and seen in a step; return how the words were understood, answers as people give them.
 
         head, wrist: metres, both or neither. Raises ObservationError for a ray without length, or one of the two alone.
         """
@@ -97,10 +104,10 @@ class Agent:
             missing = "head" if head is None else "wrist"
             raise ObservationError("found none, expected head and wrist, or neither", field=missing)
         ray = None if head is None or wrist is None else Ray(head, wrist)
-        return self.update(Observation(tokenize(utterance or ""), ray))
+        return self.update(Observation(self.answers.read(tokenize(utterance or ""), self.after).words, ray))
 
     def update(self, observation: Observation) -> Utterance:
-        """Take in an observation; return how its words were understood."""
+        """Take in an observation; return how its words were understood, by the paper's lists of answers."""
         utterance = unigram.split(observation.words, self.problem)
         parts = observations.log_likelihoods(observation, self.asked, self.problem, self.problem.model.p_l)
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
