@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 
 from fetch_pomdp.core.action import Point, Wait
 from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.meaning import Meaning
+from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from tests.oracles import model as oracle
@@ -168,3 +170,13 @@ def test_word_selected_by_the_largest_number_exists() -> None:
         for item in range(problem.n_items):
             assert 0 <= unigram.draw_word(item, 0.0, almost, problem.tables) < len(problem.words)
             assert unigram.draw_word(item, almost, 0.0, problem.tables) == -1
+
+
+def test_an_utterance_says_what_its_last_answer_means() -> None:
+    meanings = {"cup": None, "": None, "yes": Meaning.YES, "no yes not": Meaning.NO, "pardon cup": Meaning.REPEAT}
+    for words, meaning in meanings.items():
+        assert unigram.split(tuple(words.split()), UNEQUAL).meaning is meaning
+    unsure = unigram.split(("unsure", "cup", "left"), UNEQUAL)
+    assert unsure == Utterance(("cup",), (), ("left",), Meaning.UNSURE)
+    named = table([["unsure"], ["mug"]])
+    assert unigram.split(("unsure",), named) == Utterance(("unsure",))

@@ -95,7 +95,7 @@ ENGLISH: Mapping[Entry, str] = {
     """,
     Entry(Meaning.OBJECT): """
         stop, stop it, stop that, please stop, halt, freeze, wait, wait a minute, wait a second, wait a
-        moment, no wait, hold on, hold it, hang on, put it back, put that back, put it down, put that down,
+        moment, hold on, hold it, hang on, put it back, put that back, put it down, put that down,
         let go, let go of it, don't, don't do that, don't do it, do not, don't take that, don't take that
         one, don't take it, don't pick that, don't pick that one, don't give me that, don't give me that
         one, not so fast, not yet, whoa, drop it

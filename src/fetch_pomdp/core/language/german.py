@@ -89,8 +89,7 @@ GERMAN: Mapping[Entry, str] = {
         stopp, halt stopp, warte, warte mal, warte kurz, moment, moment mal, einen moment, halt an, halt
         ein, anhalten, aufhören, hör auf, leg es zurück, leg das zurück, leg ihn zurück, leg sie zurück, leg
         es weg, leg das hin, leg es hin, stell es zurück, stell das zurück, stell es hin, zurücklegen, lass
-        los, loslassen, finger weg, nimm das nicht, nimm den nicht, nimm die nicht, nicht so schnell, noch
-        nicht, nein halt, nein stopp, nein warte
+        los, loslassen, finger weg, nimm das nicht, nimm den nicht, nimm die nicht, nicht so schnell, noch nicht
     """,
     Entry(None): """
         nicht wahr, oder nicht, kein problem, keine sorge, keine eile, keine ursache, bist du sicher, ja
