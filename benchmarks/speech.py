@@ -24,8 +24,8 @@ import pocketsphinx
 
 from fetch_pomdp.adapters.speech.audio import open_raw, open_wav
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE
 from voices import RATE, SNRS, VOICES, Recording, missing_tools, read, record
 
 IN_SCENE = (

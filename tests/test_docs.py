@@ -44,13 +44,19 @@ def test_the_list_of_choices_is_that_of_the_source() -> None:
     assert written == len(list(script["choices"]())), "a Choice: must begin a paragraph of a docstring"
 
 
+def core_module(name: str) -> str:
+    """The dotted name of a module of the core, in whichever folder it is."""
+    (path,) = (ROOT / "src" / "fetch_pomdp" / "core").rglob(f"{name}.py")
+    return ".".join(path.relative_to(ROOT / "src").with_suffix("").parts)
+
+
 def test_every_name_in_the_table_of_the_model_exists() -> None:
     table = [line for line in (ROOT / "docs" / "model.md").read_text().splitlines() if line.startswith("| ")]
     names = [name for line in table for name in re.findall(r"`([A-Za-z]+)\.(\w+)`", line)]
     assert len(names) > 10
     for holder, name in names:
         public = getattr(fetch_pomdp, holder, None)
-        owner = public if public is not None else importlib.import_module(f"fetch_pomdp.core.{holder}")
+        owner = public if public is not None else importlib.import_module(core_module(holder))
         known = {*dir(owner), *getattr(owner, "__dataclass_fields__", {})}
         assert name in known | set(vars(fetch_pomdp.Agent("ambiguous"))), (holder, name)
 

@@ -32,7 +32,7 @@ from numpy.random import Generator
 from fetch_pomdp import Action, Belief, Decision, Pick, Point, Problem, Wait
 from fetch_pomdp.core.compiled import Integers, Vector, compiled, random_state, standard_normal, uniform
 from fetch_pomdp.core.gesture import ray_likelihood
-from fetch_pomdp.core.language import draw_word
+from fetch_pomdp.core.language.unigram import draw_word
 from fetch_pomdp.core.planners.base import pick_values, unvalued
 from fetch_pomdp.core.planners.kernels import NO, SILENT, YES
 from fetch_pomdp.core.problem import Tables

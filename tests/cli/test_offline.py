@@ -52,6 +52,18 @@ def test_decide_gives_null_where_a_planner_values_nothing(run: Run, tmp_path: Pa
     assert decision["values"]["wait"] is None
 
 
+@pytest.mark.parametrize("command", ["filter", "decide"])
+def test_a_half_written_last_line_is_told_beside_the_output(run: Run, tmp_path: Path, command: str) -> None:
+    whole = events(tmp_path / "whole.jsonl", *ASKED)
+    torn = tmp_path / "torn.jsonl"
+    torn.write_text(whole.read_text() + '{"observation": {"utter')
+    code, out, err = run(command, torn, "--json")
+    assert (code, out) == (0, run(command, whole, "--json")[1])
+    said = f"fetch-pomdp: {torn}:{len(ASKED) + 1}: left out: this last line is half-written"
+    assert err.splitlines().count(said) == 1
+    assert "left out" not in run(command, whole, "--json")[2]
+
+
 def test_decide_refuses_an_interaction_that_is_over(run: Run, tmp_path: Path) -> None:
     path = events(tmp_path / "e.jsonl", *ASKED, {"action": "pick", "item": "marker-2"})
     code, out, err = run("decide", path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,10 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language.answers import After
+from fetch_pomdp.core.language.meaning import Meaning
+from fetch_pomdp.core.language.phrases import Answers
+from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
@@ -50,6 +55,52 @@ def test_observe_is_one_step_of_bayes_and_tells_how_words_were_understood() -> N
     seen = Observation(words, Ray((0.0, 0.0, 1.6), (0.0, 1.0, 1.3)))
     expected = Belief.uniform(6).updated(seen, None, agent.problem)
     assert agent.belief == pytest.approx(expected.probabilities)
+
+
+def test_answers_are_understood_as_people_give_them() -> None:
+    for said, model in (("Yep.", "yes"), ("that's the one", "yes"), ("right", "yes"), ("ja", "yes"), ("nein", "no")):
+        agent, expected = Agent("ambiguous"), Agent("ambiguous")
+        for each, words in ((agent, said), (expected, model)):
+            each.did(Point(2))
+            each.observe(words)
+        assert (agent.belief == expected.belief).all()
+        assert agent.evidence.unanswered is None
+        assert agent.observe("right").unknown == ("right",), "the question has been answered"
+
+
+def test_outside_a_question_right_is_no_answer() -> None:
+    agent = Agent("ambiguous")
+    assert agent.observe("right").response == ()
+    agent.did(Point(2))
+    assert agent.observe("the right one").response == ()
+    assert agent.observe("right").response == ("yes",)
+
+
+@pytest.mark.parametrize(
+    ("said", "meaning"),
+    [
+        ("I don't know", Meaning.UNSURE),
+        ("not sure", Meaning.UNSURE),
+        ("what?", Meaning.REPEAT),
+        ("schon gut", Meaning.CANCEL),
+    ],
+)
+def test_what_is_no_evidence_is_given_back_beside_it(said: str, meaning: Meaning) -> None:
+    agent = Agent("ambiguous")
+    agent.observe("marker")
+    agent.did(Point(2))
+    before = agent.belief
+    heard = agent.observe(said)
+    assert heard == Utterance(meaning=meaning)
+    assert agent.belief == pytest.approx(before)
+    assert agent.after is After.QUESTION
+
+
+def test_a_scene_s_own_answers() -> None:
+    scene = dataclasses.replace(Scene.load("ambiguous"), answers=Answers(yes=("roger that",)))
+    agent = Agent(scene)
+    agent.did(Point(2))
+    assert agent.observe("roger that").response == ("yes",)
 
 
 def test_silence_may_be_said_in_three_ways() -> None:

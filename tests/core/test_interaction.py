@@ -12,6 +12,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.interaction import Timing, interact, median_ray, pointing_arms
+from fetch_pomdp.core.language.answers import PAPER
 from fetch_pomdp.core.ports import Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item
 from fetch_pomdp.errors import ModelError, ObservationError
@@ -178,6 +179,33 @@ def test_words_that_stop_a_pick_deny_its_item() -> None:
     assert [event.observation.words for event in observed(events)] == [("no",), ("stop",)]
     assert agent.asked == 1
     assert agent.belief[1] < 0.01
+
+
+def test_answers_are_read_as_people_give_them() -> None:
+    agent, events = run(Script(Point(2), Wait()), Ears(("that's", 1.9), ("the", 2.1), ("one", 2.3), ("right", 3.5)))
+    assert [event.observation.words for event in observed(events)] == [("yes",), ("right",)]
+    assert [word.text for word in observed(events)[0].words] == ["that's", "the", "one"]
+    assert agent.belief[2] > 0.9
+
+
+def test_an_early_phrase_is_an_answer_to_the_question_before() -> None:
+    ears = Ears(("wrong", 2.8 + 0.5), ("one", 2.8 + 0.7), ("marker", 2.8 + 2.0))
+    agent, events = run(Script(Point(2), Point(4)), ears)
+    assert [event.observation.words for event in observed(events)] == [(), ("no",), ("marker",)]
+    assert agent.belief[2] < 0.01
+
+
+def test_the_rest_of_an_early_answer_does_not_answer_the_next_question() -> None:
+    ears = Ears(("no", 2.8 + 1.7), ("that", 2.8 + 1.85), ("one", 2.8 + 2.0))
+    agent, events = run(Script(Point(2), Point(4)), ears)
+    assert [event.observation.words for event in observed(events)] == [(), ("no",), ("that", "one")]
+    assert agent.belief[4] == pytest.approx(0.2, abs=0.01)
+
+
+def test_a_reader_may_be_given() -> None:
+    agent = Agent("ambiguous", Script(Point(2)))
+    events = list(interact(agent, Arm(), Ears(("yep", 2.5)), None, answers=PAPER))
+    assert [event.observation.words for event in observed(events)] == [("yep",)]
 
 
 def test_frames_of_a_step_become_one_ray() -> None:

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from fetch_pomdp.core.language.phrases import Answers
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE, tokenize
 from fetch_pomdp.errors import InputError, ModelError, SceneError
 from tests.oracles.model import NO_WORDS, YES_WORDS
 
@@ -184,6 +185,20 @@ def test_to_mapping_and_back() -> None:
     for name in LAYOUTS:
         scene = Scene.load(name)
         assert Scene.from_mapping(scene.to_mapping()) == scene
+        assert "answers" not in scene.to_mapping()
+        answering = dataclasses.replace(scene, answers=Answers(yes=("aye", "that'll do"), object=("arrête",)))
+        assert answering.to_mapping()["answers"] == {"yes": ["aye", "that'll do"], "object": ["arrête"]}
+        assert Scene.from_mapping(answering.to_mapping()) == answering
+
+
+def test_answers_of_a_scene_file(tmp_path: Path) -> None:
+    text = 'head = [0, 0, 1.6]\n[[items]]\nid = "a"\nposition = [0, 1, 1]\nvocabulary = ["cup"]\n[answers]\n'
+    path = tmp_path / "scene.toml"
+    path.write_text(text + 'yes = ["aye"]\n')
+    assert Scene.load(path).answers == Answers(yes=("aye",))
+    path.write_text(text + 'yes = ["aye", 3]\n')
+    with pytest.raises(SceneError, match=r"scene.toml:7: answers\.yes\[1\]: found 3, expected a phrase"):
+        Scene.load(path)
 
 
 @pytest.mark.parametrize("name", ["ambigous", "a" * 5_000, "no\0where", ""])
@@ -197,21 +212,6 @@ def test_names_of_no_scene(name: str) -> None:
 def test_a_folder_is_no_scene(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="cannot be read"):
         Scene.load(tmp_path)
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("", ()),
-        (" ...?! ", ()),
-        ("The GREEN marker, please.", ("the", "green", "marker", "please")),
-        ("it's a T-shirt; no—yes", ("it's", "a", "t-shirt", "no", "yes")),
-        ("'quoted' -dashed- under_score", ("quoted", "dashed", "under", "score")),
-        ("Löffel 7", ("löffel", "7")),
-    ],
-)
-def test_tokenize(text: str, words: tuple[str, ...]) -> None:
-    assert tokenize(text) == words
 
 
 def test_problem_holds_the_scene_as_arrays() -> None:

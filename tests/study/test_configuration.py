@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from fetch_pomdp.core.language.phrases import Answers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.study.clock import Clock
@@ -150,8 +151,18 @@ def changes() -> dict[str, dict[str, Any]]:
                 ),
             }
         },
+        "layouts.ambiguous.answers": {
+            "layouts": {
+                **study.layouts,
+                "ambiguous": dataclasses.replace(study.layouts["ambiguous"], answers=Answers(yes=("aye",))),
+            }
+        },
         "layouts in another order": {"layouts": dict(reversed(list(study.layouts.items())))},
     }
+
+
+def test_a_study_without_answers_of_its_own_has_the_digest_it_had_before_there_were_any() -> None:
+    assert digest(to_plain(Study())) == "c1e73b0dea78d70a"
 
 
 @pytest.mark.parametrize("place", changes())

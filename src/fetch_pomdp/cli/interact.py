@@ -37,7 +37,7 @@ MICROPHONE = "mic"
 
 Audio = Annotated[
     str | None,
-    typer.Option(metavar="F.wav", help="Speech: a PCM WAV file, - for raw PCM on standard input, or mic."),
+    typer.Option(metavar="F.wav", help="Speech: a WAV file, - for raw PCM on standard input, or mic."),
 ]
 Rate = Annotated[int, typer.Option(min=8000, max=192_000, help="Hz, of raw PCM: 16 bit, little-endian, mono.")]
 Skeleton = Annotated[

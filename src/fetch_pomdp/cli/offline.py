@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -34,7 +35,7 @@ from fetch_pomdp.errors import EventError
 from fetch_pomdp.files.decisions import belief_to_json, decision_to_json
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.models import with_model
-from fetch_pomdp.files.recordings import read_recording
+from fetch_pomdp.files.recordings import Recording, read_recording
 
 Events = Annotated[Path, typer.Argument(metavar="EVENTS.jsonl", help="A recorded interaction, one JSON object a line.")]
 
@@ -45,7 +46,7 @@ def filter_events(events: Events, model: ModelFile = None, json_lines: Json = Fa
     On a terminal as bars; with --json, or into a file or pipe, one JSON object a line:
     {"belief": {ID: probability, ...}, "asked": ID or null}.
     """
-    recording = read_recording(events)
+    recording = _read(events)
     agent = _under(recording.header, model).agent()
     console = Console(highlight=False)
     for event in recording.replay(agent):
@@ -53,6 +54,14 @@ def filter_events(events: Events, model: ModelFile = None, json_lines: Json = Fa
             show_event(event, agent, console)
         elif isinstance(event, Observed):
             print(json.dumps(belief_to_json(agent), ensure_ascii=False))
+
+
+def _read(path: Path) -> Recording:
+    """Return a recorded interaction; say on standard error what was left out of it."""
+    recording = read_recording(path)
+    if recording.torn is not None:
+        print(f"fetch-pomdp: {path}:{recording.torn}: left out: this last line is half-written", file=sys.stderr)
+    return recording
 
 
 def _under(header: Header, model: Path | None) -> Header:
@@ -76,7 +85,7 @@ def decide(
     On a terminal a sentence; with --json, or into a file or pipe, an object with the value of every action too.
     Planner and seed are those of the recording unless given, so the decisions of a log come out again.
     """
-    recording = read_recording(events)
+    recording = _read(events)
     if recording.over:
         raise EventError(
             "found a pick that was done, expected an interaction that is still going on", source=str(events)

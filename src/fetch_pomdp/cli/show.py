@@ -9,14 +9,14 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from fetch_pomdp.core import language
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.explanation import deed
 from fetch_pomdp.core.gesture import angles
+from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.words import COURTESY
 
 BAR = 28  # characters of a belief of 1
 MOST_BARS = 8  # items shown of a larger scene, the likeliest
@@ -41,7 +41,7 @@ def _perceived(event: Observed, agent: Agent) -> str:
     observation, parts = event.observation, []
     if observation.words:
         parts.append(f'hears "{escape(" ".join(observation.words))}"')
-        unknown = [word for word in language.split(observation.words, agent.problem).unknown if word not in COURTESY]
+        unknown = [word for word in unigram.split(observation.words, agent.problem).unknown if word not in COURTESY]
         if unknown:
             parts.append(f"[yellow]not understood: {escape(', '.join(unknown))}[/yellow]")
     if observation.ray is not None:

@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from fetch_pomdp.checks import Point3, shown
-from fetch_pomdp.core import language
 from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
@@ -21,7 +20,10 @@ from fetch_pomdp.core.evidence import Evidence
 from fetch_pomdp.core.explain import explain
 from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
-from fetch_pomdp.core.language import Utterance
+from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
+from fetch_pomdp.core.language.unigram import Utterance
+from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner, whole_number
@@ -29,7 +31,6 @@ from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.core.turns import constant_chances
-from fetch_pomdp.core.words import tokenize
 from fetch_pomdp.errors import ActionError, ObservationError
 
 
@@ -55,6 +56,7 @@ class Agent:
         changed_model = model if isinstance(model, Model) else table.model.with_changes(model or {})
         changed_rewards = rewards if isinstance(rewards, Rewards) else table.rewards.with_changes(rewards or {})
         self.problem = Problem(dataclasses.replace(table, model=changed_model, rewards=changed_rewards))
+        self.answers: Lexicon = lexicon(table.answers, self.problem.words)
         self.planner: Planner = planner if planner is not None else FittedValue()
         self.seed = whole_number(seed, 0, 2**63 - 1, "seed")
         self.asked: int | None = None  # i_r, as an index into the scene's items
@@ -83,6 +85,11 @@ class Agent:
         return self._evidence
 
     @property
+    def after(self) -> After:
+        """What the words heard next follow: a question as long as none of them has answered it, or nothing."""
+        return After.NOTHING if self._evidence.unanswered is None else After.QUESTION
+
+    @property
     def scene(self) -> Scene:
         """The table, with the model and rewards in force."""
         return self.problem.scene
@@ -90,7 +97,7 @@ class Agent:
     def observe(
         self, utterance: str | None = None, *, head: Point3 | None = None, wrist: Point3 | None = None
     ) -> Utterance:
-        """Take in what was said and seen in a step; return how the words were understood.
+        """Take in what was said and seen in a step; return how the words were understood, answers as people give them.
 
         head, wrist: metres, both or neither. Raises ObservationError for a ray without length, or one of the two alone.
         """
@@ -100,11 +107,11 @@ class Agent:
             missing = "head" if head is None else "wrist"
             raise ObservationError("found none, expected head and wrist, or neither", field=missing)
         ray = None if head is None or wrist is None else Ray(head, wrist)
-        return self.update(Observation(tokenize(utterance or ""), ray))
+        return self.update(Observation(self.answers.read(tokenize(utterance or ""), self.after).words, ray))
 
     def update(self, observation: Observation) -> Utterance:
-        """Take in an observation; return how its words were understood."""
-        utterance = language.split(observation.words, self.problem)
+        """Take in an observation; return how its words were understood, by the paper's lists of answers."""
+        utterance = unigram.split(observation.words, self.problem)
         model = self.problem.model
         chances = constant_chances(model.p_l, model.p_g)  # the action before scales all items alike
         if model.turns:

@@ -16,14 +16,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fetch_pomdp.checks import shown
-from fetch_pomdp.core import gesture, language
+from fetch_pomdp.core import gesture
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.compiled import Vector, compiled
+from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.words import POSITIVE
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem, constant_only
 from fetch_pomdp.core.rays import turned
 from fetch_pomdp.core.turns import NO, SILENT, YES
-from fetch_pomdp.core.words import POSITIVE
 from fetch_pomdp.errors import ModelError, ObservationError, SceneError
 
 MOST_RINGS = 16
@@ -92,7 +93,7 @@ class Discrete:
 
         Raises ObservationError for more than one word or response of the scene: the model's people say one at a time.
         """
-        utterance = language.split(observation.words, self.problem)
+        utterance = unigram.split(observation.words, self.problem)
         for name, heard in (("words", utterance.base), ("responses", utterance.response)):
             if len(heard) > 1:
                 raise ObservationError(

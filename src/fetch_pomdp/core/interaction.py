@@ -12,7 +12,7 @@ In real life the arm shows the item before the voice has ended: an answer that e
 end of the question answers it.
 
 Choice: a pick that the person stopped was shown to them like a question, and they objected: its item is i_r from then
-on, and the words they stopped it with that the model does not know ("stop", "wrong") are read as "no".
+on, and what they stopped it with that the model does not know ("stop", "wrong one") is read as "no".
 
 Choice: after `Timing.silence` of waits without a word the robot says that it is listening: a person who has said all
 there is to say cannot know that it waits for more, and the paper saw interactions come to a standstill there (Section
@@ -21,7 +21,7 @@ V).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -33,18 +33,20 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language.answers import After, AnswerReader
+from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import nearest_angles
 from fetch_pomdp.core.simulation import MOST_STEPS
-from fetch_pomdp.core.words import NEGATIVE, RESPONSES, STOPS, tokenize
 from fetch_pomdp.errors import ModelError
 
 LISTENING = "I am listening."
 FAILED = "I could not hand it over. Please tell me again."
 OBJECTED = "All right, not that one."
+CONTINUES = 0.3  # s of silence after an early answer, within which what follows is the rest of it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,24 +102,40 @@ class Senses:
     def __init__(self, problem: Problem, ears: Recognizer | None, eyes: SkeletonSource | None, pace: Pace) -> None:
         self._problem, self._ears, self._eyes, self._pace = problem, ears, eyes, pace
         self._kept: tuple[Word, ...] = ()
+        self._answered: float | None = None  # s, when an answer of this step ended that came early
 
-    def answers(self, time: float) -> Observed | None:
+    def answers(self, time: float, reader: AnswerReader, after: After) -> Observed | None:
         """Return the answers said since the last call, if any; other words mean the same later, and are kept."""
         words = tuple(self._ears.hear(time)) if self._ears else ()
-        answers = tuple(word for word in words if not RESPONSES.isdisjoint(tokenize(word.text)))
-        self._kept += tuple(word for word in words if RESPONSES.isdisjoint(tokenize(word.text)))
-        return Observed(Observation(texts(answers)), answers, time, early=True) if answers else None
+        places = [index for index, word in enumerate(words) for _ in tokenize(word.text)]
+        answering = {places[index] for index in reader.answering(texts(words))}
+        answers = tuple(words[index] for index in sorted(answering))
+        self._kept += tuple(word for index, word in enumerate(words) if index not in answering)
+        if not answers:
+            return None
+        self._answered = answers[-1].end
+        return Observed(Observation(reader.read(texts(answers), after).words), answers, time, early=True)
 
-    def perceive(self, due: float, reading: Callable[[Sequence[Word]], tuple[str, ...]]) -> Observed:
-        """Listen until `due` (s); return what was said and seen since the last call, without what was given as answers.
-
-        reading: makes the words that the model reads of those that were heard.
-        """
-        words = self._kept + (tuple(self._ears.hear(due)) if self._ears else ())
-        self._kept = ()
+    def perceive(self, due: float, reader: AnswerReader, after: After) -> Observed:
+        """Listen until `due` (s); return what was said and seen since the last call, without early answers."""
+        fresh = tuple(self._ears.hear(due)) if self._ears else ()
+        rest = _continuing(fresh, self._answered)
+        read = texts(rest) + reader.read(texts(self._kept + fresh[len(rest) :]), after).words
+        words, self._kept, self._answered = self._kept + fresh, (), None
         time = self._pace.time(due)
         frames = self._eyes.see(time) if self._eyes else ()
-        return Observed(Observation(reading(words), median_ray(frames, self._problem)), words, time)
+        return Observed(Observation(read, median_ray(frames, self._problem)), words, time)
+
+
+def _continuing(words: Sequence[Word], end: float | None) -> tuple[Word, ...]:
+    """Return the words at the beginning that go on with what ended at `end` (s), each close upon the last."""
+    rest: list[Word] = []
+    for word in words:
+        if end is None or word.start > end + CONTINUES:
+            break
+        rest.append(word)
+        end = word.end
+    return tuple(rest)
 
 
 def texts(words: Sequence[Word]) -> tuple[str, ...]:
@@ -125,9 +143,9 @@ def texts(words: Sequence[Word]) -> tuple[str, ...]:
     return tuple(text for word in words for text in tokenize(word.text))
 
 
-def objections(words: Sequence[Word]) -> tuple[str, ...]:
-    """Return the words of an utterance that stopped a pick, as the model knows them."""
-    return tuple(NEGATIVE[0] if text in STOPS else text for text in texts(words))
+def following(event: Event, agent: Agent) -> After:
+    """Return what the words follow that are heard after an event that the agent has taken."""
+    return After.STOPPED if isinstance(event, Acted) and event.objected else agent.after
 
 
 def interact(
@@ -139,16 +157,17 @@ def interact(
     timing: Timing | None = None,
     most_steps: int = MOST_STEPS,
     pace: Pace | None = None,
+    answers: AnswerReader | None = None,
 ) -> Iterator[Event]:
     """Run an interaction and yield what happens as it happens; it ends with a pick that was done, or after most_steps.
 
     A pick that failed or was stopped ends nothing: the robot says so, listens for a wait, and decides anew. pace: that
-    of recordings unless given.
+    of recordings unless given. answers: how they are read, by the scene's lexicon unless given.
     """
-    timing, pace = timing or Timing(), pace or StreamPace()
+    timing, pace, answers = timing or Timing(), pace or StreamPace(), answers or agent.answers
     senses, now, silence = Senses(agent.problem, ears, eyes, pace), pace.time(0.0), 0.0
     if timing.before:
-        observed = senses.perceive(now + timing.before, texts)
+        observed = senses.perceive(now + timing.before, answers, agent.after)
         now = pace.time(now + timing.before)
         agent.take(observed)
         yield observed
@@ -159,7 +178,7 @@ def interact(
             asking, listening = timing.question - timing.listen, timing.listen
         outcome = _carry_out(decision.action, agent, robot)
         now = pace.time(now + asking)
-        if isinstance(decision.action, Point) and (early := senses.answers(now - timing.overlap)):
+        if isinstance(decision.action, Point) and (early := senses.answers(now - timing.overlap, answers, agent.after)):
             agent.take(early)
             yield early
         acted = Acted(decision.action, outcome, decision, now, decision.passes)
@@ -170,7 +189,7 @@ def interact(
                 return
             robot.say(OBJECTED if acted.objected else FAILED)
             now = pace.time(now)
-        observed = senses.perceive(now + listening, objections if acted.objected else texts)
+        observed = senses.perceive(now + listening, answers, following(acted, agent))
         now = pace.time(now + listening)
         agent.take(observed)
         silence = silence + timing.wait if isinstance(acted.action, Wait) and not observed.observation.words else 0.0

@@ -7,13 +7,14 @@ from typing import NamedTuple
 
 from numpy.random import Generator
 
-from fetch_pomdp.core import gesture, language
+from fetch_pomdp.core import gesture
 from fetch_pomdp.core.action import Action, Point
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.words import POSITIVE
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.turns import NO, SILENT, YES, StepChances
-from fetch_pomdp.core.words import POSITIVE
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,18 +45,18 @@ def log_likelihoods(observation: Observation, asked: int | None, problem: Proble
 
     asked: index of i_r, or None. chances: of the step, see `Problem.step_chances`.
     """
-    utterance = language.split(observation.words, problem)
+    utterance = unigram.split(observation.words, problem)
     return Parts(
-        language.base_log_likelihood(utterance.base, problem),
-        language.response_log_likelihood(utterance.response, asked, problem, chances),
+        unigram.base_log_likelihood(utterance.base, problem),
+        unigram.response_log_likelihood(utterance.response, asked, problem, chances),
         gesture.log_likelihood(observation.ray, problem),
     )
 
 
 def sample(desired: int, asked: int | None, problem: Problem, chances: StepChances, rng: Generator) -> Observation:
     """Draw an observation o ~ p(o | i_d, i_r). chances: of the step, see `Problem.step_chances`."""
-    base = language.sample_base(desired, problem, chances.words, rng)
-    response = language.sample_response(desired, asked, problem, chances, rng)
+    base = unigram.sample_base(desired, problem, chances.words, rng)
+    response = unigram.sample_response(desired, asked, problem, chances, rng)
     return Observation(base + response, gesture.sample(desired, problem, chances.points, rng))
 
 
@@ -63,7 +64,7 @@ def phase_after(observation: Observation, action: Action, problem: Problem, phas
     """Return the phase (`turns`) that a step leads to which began with an action; of several responses the last
     counts.
     """
-    utterance = language.split(observation.words, problem)
+    utterance = unigram.split(observation.words, problem)
     answer = SILENT
     if utterance.response:
         answer = YES if utterance.response[-1] in POSITIVE else NO

@@ -10,9 +10,10 @@ from typing import Any, Self
 
 from fetch_pomdp import checks
 from fetch_pomdp.checks import Point3
+from fetch_pomdp.core.language.phrases import Answers
+from fetch_pomdp.core.language.words import RESPONSES, tokenize
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.model import Model, Rewards
-from fetch_pomdp.core.words import RESPONSES, tokenize
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError, SceneError
 
@@ -56,6 +57,7 @@ class Scene:
     head: Point3  # m, where the person's head is
     model: Model = field(default_factory=Model)
     rewards: Rewards = field(default_factory=Rewards)
+    answers: Answers = field(default_factory=Answers)  # what is understood as an answer here, beside what is everywhere
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "items", tuple(self.items))
@@ -102,8 +104,8 @@ class Scene:
 
     @classmethod
     def from_mapping(cls, data: Mapping[str, Any]) -> Self:
-        """Build a scene from the fields of a scene file: head, items, and optionally model and rewards."""
-        checks.known(data, ("head", "items", "model", "rewards"), "field", SceneError)
+        """Build a scene from the fields of a scene file: head, items, and optionally model, rewards and answers."""
+        checks.known(data, ("head", "items", "model", "rewards", "answers"), "field", SceneError)
         checks.required(data, ("head", "items"), SceneError)
         if not isinstance(data["items"], list | tuple):
             found = checks.shown(data["items"])
@@ -114,16 +116,19 @@ class Scene:
             model = Model().with_changes(checks.mapping(data.get("model", {}), "", SceneError))
             section = "rewards"
             rewards = Rewards().with_changes(checks.mapping(data.get("rewards", {}), "", SceneError))
+            section = "answers"
+            answers = Answers.from_mapping(checks.mapping(data.get("answers", {}), "", SceneError))
         except InputError as error:
             raise error.within(section) from None
-        return cls(items=items, head=data["head"], model=model, rewards=rewards)
+        return cls(items=items, head=data["head"], model=model, rewards=rewards, answers=answers)
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return the head and items as plain data, in the form of a scene file."""
+        """Return the head, the items and the answers that it adds as plain data, in the form of a scene file."""
         items = [
             {"id": item.id, "position": list(item.position), "vocabulary": list(item.vocabulary)} for item in self.items
         ]
-        return {"head": list(self.head), "items": items}
+        answers = self.answers.to_mapping()
+        return {"head": list(self.head), "items": items} | ({"answers": answers} if answers else {})
 
 
 def _item(fields: object, path: str) -> Item:

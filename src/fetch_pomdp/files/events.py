@@ -11,10 +11,10 @@ from fetch_pomdp.checks import shown
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Outcome, Word
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.words import tokenize
 from fetch_pomdp.errors import ActionError, EventError, InputError
 
 ACTIONS = ("wait", "point", "pick")

@@ -101,6 +101,10 @@ def _elsewhere(field: str, read: Callable[[], Read]) -> Read:
 def to_plain(study: Study) -> dict[str, Any]:
     """Return all that a study's trials depend on as plain data, in the form that JSON gives back."""
     fields = dataclasses.asdict(study)
+    for name, scene in study.layouts.items():
+        del fields["layouts"][name]["answers"]
+        if answers := scene.answers.to_mapping():  # without any, a study is what it was before there were any
+            fields["layouts"][name]["answers"] = answers
     plain: dict[str, Any] = json.loads(json.dumps(fields))
     return plain
 

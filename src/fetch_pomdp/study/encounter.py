@@ -9,6 +9,7 @@ from numpy.random import Generator
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Event
 from fetch_pomdp.core.interaction import interact
+from fetch_pomdp.core.language.answers import PAPER
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.study.clock import Clock
 from fetch_pomdp.study.people.channel import Channel
@@ -31,12 +32,13 @@ def encounter(
 
     The layout enters by the places of the scene alone: utterances are missed by the person's distance from the items,
     and how well an arm tells them apart follows from where they are. channel: what is heard of what is said, by rates
-    (MistakenWords) unless given. The same agent, seed and traits give the same events. Raises StudyError for a desired
-    item that the scene does not have.
+    (MistakenWords) unless given. Answers are read by the paper's lists, which are all that these people answer with.
+    The same agent, seed and traits give the same events. Raises StudyError for a desired item that the scene does not
+    have.
     """
     n_items = agent.problem.n_items
     if not 0 <= desired < n_items:
         raise StudyError(f"found {desired!r}, expected an index below {n_items}", field="desired")
     person = Person(agent.scene, desired, traits, clock, rng, channel)
-    events = tuple(interact(agent, person, person, person, timing=clock.timing()))
+    events = tuple(interact(agent, person, person, person, timing=clock.timing(), answers=PAPER))
     return Encounter(events, person.begun)

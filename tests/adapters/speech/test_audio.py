@@ -3,7 +3,9 @@ from __future__ import annotations
 import io
 import math
 import os
+import shutil
 import struct
+import subprocess
 import threading
 import time
 import wave
@@ -101,7 +103,11 @@ BAD = {
     "empty file": (b"", "an empty file"),
     "not a WAV": (b"ID3\x04" + bytes(100), "begins with"),
     "compressed": (header(tag=0x11), "ADPCM"),
-    "floating point": (header(tag=3, bits=32), "floating point"),
+    "GSM": (header(tag=0x31), "GSM"),
+    "floating point of 16 bits": (header(tag=3), "floating point of 16 bits"),
+    "A-law of 16 bits": (header(tag=6), "A-law of 16 bits"),
+    "no number": (header(tag=3, bits=32, channels=2, data=np.array([0, np.nan], "<f4").tobytes()), "no numbers"),
+    "an extensible format of its own": (header(tag=0xFFFE), "0xfffe"),
     "an unknown format": (header(tag=0x1234), "0x1234"),
     "12 bits": (header(bits=12), "12 bits"),
     "cut short": (header()[:-60], "140 bytes of samples, expected 200"),
@@ -113,6 +119,130 @@ BAD = {
     "zero channels": (header(channels=0), "0 channels"),
     "zero rate": (header(rate=0), "0 Hz"),
 }
+
+
+def test_a_format_that_is_not_read_says_how_to_convert_it(tmp_path: Path) -> None:
+    for data in (header(tag=0x11), header(bits=12), header(tag=3), header(tag=0x1234)):
+        (tmp_path / "in.wav").write_bytes(data)
+        with pytest.raises(AudioError, match=r"; convert it with: sox in.wav -b 16 -e signed-integer out.wav$"):
+            open_wav(tmp_path / "in.wav")
+
+
+@pytest.mark.parametrize("width", [4, 8])
+def test_floating_point_arrives_as_it_is_and_is_cut_off_beyond_one(tmp_path: Path, width: int) -> None:
+    values = np.array([0.0, 0.5, -0.25, 1.0, -1.0, 7.0, -np.inf, 1 / 32768], f"<f{width}")
+    path = tmp_path / "float.wav"
+    path.write_bytes(header(tag=3, bits=8 * width, data=values.tobytes()))
+    assert everything(open_wav(path)).tolist() == [0, 16384, -8192, 32767, -32768, 32767, -32768, 1]
+
+
+# Values of ITU-T G.711 on a scale of 16 bits: the least and largest of each sign, and one in between.
+@pytest.mark.parametrize(
+    ("tag", "codes", "values"),
+    [
+        (6, [0xD5, 0x55, 0xAA, 0x2A, 0x80, 0x00], [8, -8, 32256, -32256, 5504, -5504]),
+        (7, [0xFF, 0x7F, 0x80, 0x00, 0xBF, 0x3F], [0, 0, 32124, -32124, 1980, -1980]),
+    ],
+)
+def test_a_law_and_mu_law_by_hand(tmp_path: Path, tag: int, codes: list[int], values: list[int]) -> None:
+    path = tmp_path / "law.wav"
+    path.write_bytes(header(tag=tag, bits=8, data=bytes(codes)))
+    assert everything(open_wav(path)).tolist() == values
+
+
+@pytest.mark.parametrize("length", [0, 0x7FFFF000, 0xFFFFFFFF])
+def test_sizes_that_a_pipe_left_open(tmp_path: Path, length: int) -> None:
+    data = bytearray(header(data=np.arange(100, dtype="<i2").tobytes() + b"x"))
+    data[4:8] = data[40:44] = struct.pack("<I", length)
+    path = tmp_path / "streamed.wav"
+    path.write_bytes(bytes(data))
+    assert everything(open_wav(path)).tolist() == list(range(100))
+
+
+def test_a_chunk_after_no_samples_is_no_sound(tmp_path: Path) -> None:
+    data = bytearray(header(data=b"") + b"LIST" + struct.pack("<I", 4) + bytes(4))
+    data[4:8] = struct.pack("<I", len(data) - 8)
+    (tmp_path / "none.wav").write_bytes(bytes(data))
+    with pytest.raises(AudioError, match="no samples"):
+        open_wav(tmp_path / "none.wav")
+
+
+SOX = pytest.mark.skipif(shutil.which("sox") is None, reason="sox is not installed")
+KINDS = [
+    "-b 8",
+    "-b 16",
+    "-b 24",
+    "-b 32",
+    "-e floating-point -b 32",
+    "-e floating-point -b 64",
+    "-e a-law",
+    "-e mu-law",
+]
+
+
+@SOX
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("piped", [False, True])
+@pytest.mark.parametrize("channels", [1, 2])
+def test_what_sox_writes(tmp_path: Path, kind: str, piped: bool, channels: int) -> None:
+    values = np.round(tone(RATE) * 32767).astype("<i2")
+    given = write(tmp_path / "tone.wav", np.repeat(values, channels).tobytes(), channels=channels)
+    path = tmp_path / "sox.wav"
+    command = ["sox", "-D", "-V1", str(given), *kind.split(), "-t", "wav", "-" if piped else str(path)]
+    out = subprocess.run(command, capture_output=True, check=True).stdout
+    if piped:
+        path.write_bytes(out)
+    samples = everything(open_wav(path))
+    assert len(samples) == RATE
+    off = np.abs(samples.astype(float) - values).max()
+    assert off <= (
+        128
+        if kind == "-b 8"
+        else 520
+        if "law" in kind  # half of the widest step, and what they leave out of 16 bits
+        else 0
+    )
+
+
+@SOX
+@pytest.mark.parametrize("tag", [6, 7])
+def test_every_code_is_what_it_is_for_sox(tmp_path: Path, tag: int) -> None:
+    path = tmp_path / "law.wav"
+    path.write_bytes(header(tag=tag, bits=8, data=bytes(range(256))))
+    command = ["sox", "-D", "-V1", str(path), "-b", "16", "-e", "signed-integer", "-t", "raw", "-"]
+    out = subprocess.run(command, capture_output=True, check=True).stdout
+    assert everything(open_wav(path)).tolist() == np.frombuffer(out, "<i2").tolist()
+
+
+@SOX
+@pytest.mark.parametrize("kind", ["-e ima-adpcm", "-e ms-adpcm", "-e gsm-full-rate"])
+def test_what_sox_writes_and_we_refuse(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / "sox.wav"
+    given = write(tmp_path / "tone.wav", pcm(tone(RATE), 2))
+    subprocess.run(["sox", "-V1", str(given), *kind.split(), str(path)], capture_output=True, check=True)
+    with pytest.raises(AudioError, match="convert it with: sox"):
+        open_wav(path)
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "heard"),
+    [(1.0, -1.0, 1.0), (-0.99, 1.0, 1.0), (1.0, 0.0, 0.5), (1.0, 1.0, 1.0), (0.5, -1.0, -0.25)],
+)
+def test_of_channels_that_cancel_the_loudest_is_taken(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, left: float, right: float, heard: float
+) -> None:
+    stereo = np.round(np.outer(tone(RATE), [left, right]) * 20000).astype("<i2")
+    path = write(tmp_path / "stereo.wav", stereo.tobytes(), channels=2)
+    samples = everything(open_wav(path))
+    assert np.abs(samples - tone(RATE) * 20000 * heard).max() <= 2
+    cancel = left + right < 0.02
+    said = f"{path}: the channels cancel each other when mixed: only channel {1 if left == 1.0 else 2} is heard"
+    assert [record.getMessage() for record in caplog.records] == ([said] if cancel and heard == 1.0 else [])
+
+
+def test_silence_in_two_channels_is_silence(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    assert not everything(open_wav(write(tmp_path / "silence.wav", bytes(400), channels=2))).any()
+    assert not caplog.records
 
 
 @pytest.mark.parametrize("name", BAD)

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE
 
 WORDS = ["marker", "green", "spoon", "the", "weather"]  # with a determiner and a common word, as a scene may have them
 

@@ -104,7 +104,7 @@ def test_an_answer_before_the_arm_has_arrived_is_about_the_question_before() -> 
     assert stage.agent.belief[4] > 0.9
 
 
-@pytest.mark.parametrize("word", ["no", "stop", "wrong"])
+@pytest.mark.parametrize("word", ["no", "stop", "wrong", "nein", "stopp", "wait"])
 def test_a_pick_is_stopped_and_its_item_is_ruled_out(word: str) -> None:
     stage = Stage(Pick(2), Pick(3))
     stage.word(0.7, word)

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.random import default_rng
 
+from fetch_pomdp.core.language.words import COURTESY, NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.core.words import COURTESY, NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.study.people import grammar
 
 from .plain import AMBIGUOUS, share

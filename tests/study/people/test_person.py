@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.random import Generator, default_rng
 
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.study.people.parameters import CONFUSIONS, People
 from fetch_pomdp.study.people.person import Person
 

@@ -21,13 +21,13 @@ from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.discrete import all_actions
 from fetch_pomdp.core.generative import State, step
-from fetch_pomdp.core.language import split
+from fetch_pomdp.core.language.unigram import split
+from fetch_pomdp.core.language.words import POSITIVE
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.kernels import NO, SILENT, YES
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import MOST_STEPS
-from fetch_pomdp.core.words import POSITIVE
 from fetch_pomdp.errors import ActionError, ModelError, SceneError
 from fetch_pomdp.extras import load
 

@@ -58,10 +58,10 @@ class _Stream:
 
 
 def open_wav(path: str | Path) -> Sound:
-    """Open a PCM WAV file of any rate, with 8, 16, 24 or 32 bits and any number of channels, which are averaged.
+    """Open a WAV file of any rate and any number of channels, which are averaged.
 
-    Raises AudioError for a file that is missing, empty, cut short or not PCM WAV; MissingExtraError without soxr for a
-    rate other than 16 kHz.
+    It may be PCM, floating point, A-law or mu-law. Raises AudioError for a file that is missing, empty, cut short or of
+    another format; MissingExtraError without soxr for a rate other than 16 kHz.
     """
     layout = wav.read_layout(Path(path))
     return _Stream(wav.blocks(Path(path), layout), layout.rate)

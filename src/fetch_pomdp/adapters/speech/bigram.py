@@ -12,7 +12,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
-from fetch_pomdp.core.words import POSITIVE, tokenize
+from fetch_pomdp.core.language.words import POSITIVE, tokenize
 
 START, END = "<s>", "</s>"
 UNSEEN = 0.15  # of a word's probability mass, what is left for words that no sentence below has after it

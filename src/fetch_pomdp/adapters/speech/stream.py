@@ -18,9 +18,9 @@ import numpy as np
 from fetch_pomdp.adapters.speech.audio import RATE, Samples
 from fetch_pomdp.adapters.speech.transcriber import Transcriber
 from fetch_pomdp.adapters.speech.utterances import FRAME, PADDING, Cutter, Detector, Utterance
+from fetch_pomdp.core.language.words import STOPS
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.words import STOPS
 from fetch_pomdp.errors import AudioError
 
 logger = logging.getLogger(__name__)

@@ -9,8 +9,8 @@ from typing import Any, Self
 import numpy as np
 
 from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.ports import Word
-from fetch_pomdp.core.words import tokenize
 from fetch_pomdp.errors import AudioError
 from fetch_pomdp.extras import load
 

@@ -6,16 +6,15 @@ import logging
 from collections.abc import Callable
 from typing import Protocol
 
+from fetch_pomdp.core.language.answers import AnswerReader
+from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.live.inbox import Inbox
 from fetch_pomdp.core.live.updates import State
 from fetch_pomdp.core.live.vitals import Vitals
 from fetch_pomdp.core.ports import Outcome, Robot
 from fetch_pomdp.core.scene import Item
-from fetch_pomdp.core.words import NEGATIVE, STOPS, tokenize
 
 logger = logging.getLogger(__name__)
-
-OBJECTIONS = STOPS.union(NEGATIVE)
 
 
 class LiveRobot(Robot, Protocol):
@@ -29,8 +28,8 @@ class Body:
     interaction.
     """
 
-    def __init__(self, robot: LiveRobot, inbox: Inbox, vitals: Vitals) -> None:
-        self._robot, self._inbox, self._vitals = robot, inbox, vitals
+    def __init__(self, robot: LiveRobot, inbox: Inbox, vitals: Vitals, answers: AnswerReader) -> None:
+        self._robot, self._inbox, self._vitals, self._answers = robot, inbox, vitals, answers
         self._picking = False
 
     def point(self, item: Item) -> Outcome:
@@ -61,7 +60,7 @@ class Body:
     def _objected(self) -> bool:
         pending = self._inbox.pending()
         heard = pending.words + (pending.partial or ())
-        return any(text in OBJECTIONS for word in heard for text in tokenize(word.text))
+        return self._answers.objects([text for word in heard for text in tokenize(word.text)])
 
     def _carry_out(self, action: Callable[[], Outcome]) -> Outcome:
         try:

@@ -8,7 +8,7 @@ from threading import RLock
 
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
-from fetch_pomdp.core.interaction import median_ray, objections, texts
+from fetch_pomdp.core.interaction import following, median_ray, texts
 from fetch_pomdp.core.live.inbox import Inbox
 from fetch_pomdp.core.live.updates import BeliefChanged, Did, Heard, Update
 from fetch_pomdp.core.observation import Observation
@@ -30,7 +30,7 @@ class Display:
 
     def __init__(self, agent: Agent, inbox: Inbox, listener: Callable[[Update], None]) -> None:
         self._agent, self._inbox, self._listener, self._lock = agent, inbox, listener, RLock()
-        self._start, self._asked, self._reading = agent.posterior, agent.asked, texts
+        self._start, self._asked, self._after = agent.posterior, agent.asked, agent.after
         self._taken: tuple[Word, ...] = ()  # from the inbox, but not in the agent's belief yet
         self._shown = Observation()
         self._unseen: float | None = None  # s, when something came that was not looked at yet
@@ -50,6 +50,7 @@ class Display:
         """Tell the belief that the agent begins with, or goes on with after what was taken has been left out."""
         with self._lock:
             self._start, self._asked, self._taken = self._agent.posterior, self._agent.asked, ()
+            self._after = self._agent.after
             self._shown = Observation()
             self._tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=()))
         self.look(time)
@@ -58,8 +59,8 @@ class Display:
         """Tell of an event that the agent has taken, and of the belief that the next step begins with."""
         with self._lock:
             self._start, self._asked, self._shown = self._agent.posterior, self._agent.asked, Observation()
+            self._after = following(event, self._agent)
             if isinstance(event, Acted):
-                self._reading = objections if event.objected else texts
                 self._tell(Did(event))
             else:
                 read = frozenset(event.words)
@@ -93,7 +94,7 @@ class Display:
         pending = self._inbox.pending()
         words = self._taken + pending.words + (pending.partial or ())
         ray = median_ray(pending.frames, self._agent.problem)
-        observation = Observation(self._reading(words), ray)
+        observation = Observation(self._agent.answers.read(texts(words), self._after).words, ray)
         if observation == self._shown:
             return
         self._shown = observation

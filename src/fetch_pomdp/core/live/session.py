@@ -54,7 +54,7 @@ class LiveSession:
         self._display = Display(agent, inbox, listener)
         self._vitals = Vitals(inbox, self._display.tell)
         self._senses = LiveSenses(inbox, self.clock, self._display, self._vitals)
-        self._body = Body(robot, inbox, self._vitals)
+        self._body = Body(robot, inbox, self._vitals, agent.answers)
         self._looked = 0.0
         self._leave_inbox = inbox.subscribe(self._came)
 

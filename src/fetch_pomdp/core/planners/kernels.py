@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from fetch_pomdp.core.compiled import RandomState, Vector, inlined, lean, standard_normal, uniform
 from fetch_pomdp.core.gesture import ray_likelihood
-from fetch_pomdp.core.language import draw_word
+from fetch_pomdp.core.language.unigram import draw_word
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.rays import turned
 from fetch_pomdp.core.turns import DESIRED, NO, OTHER, POINTS, SILENT, WORDS, YES

@@ -15,13 +15,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fetch_pomdp.core import gesture, language
+from fetch_pomdp.core import gesture
 from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Integers, Vector
+from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import LARGEST_EXACT
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE
 from fetch_pomdp.study.calibrate.steps import Interaction, Step, steps_of
 
 
@@ -48,14 +49,14 @@ def pointing(cases: Sequence[Case], problem: Problem) -> Vector:
 
 def naming(cases: Sequence[Case], problem: Problem) -> Vector:
     """Return log p(l_b | i_d) of each case."""
-    return np.array([language.base_log_likelihood(case.words, problem)[case.desired] for case in cases])
+    return np.array([unigram.base_log_likelihood(case.words, problem)[case.desired] for case in cases])
 
 
 def answering(cases: Sequence[Case], problem: Problem) -> Vector:
     """Return log p(l_r | i_d, i_r) of each case."""
     return np.array(
         [
-            language.response_log_likelihood(case.words, case.asked, problem, problem.step_chances(case.action))[
+            unigram.response_log_likelihood(case.words, case.asked, problem, problem.step_chances(case.action))[
                 case.desired
             ]
             for case in cases
@@ -121,7 +122,7 @@ def records_of(interactions: Sequence[Interaction]) -> Records:
 
 
 def _cases(step: Step, scene: int, desired: int, problem: Problem) -> tuple[Case, Case, Case]:
-    said = language.split(step.observation.words, problem)
+    said = unigram.split(step.observation.words, problem)
     positive = sum(word in POSITIVE for word in said.response)
     response = (POSITIVE[0],) * positive + (NEGATIVE[0],) * (len(said.response) - positive)
     ray = step.observation.ray

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from fetch_pomdp.core.action import Point
 from fetch_pomdp.core.gesture import is_pointing
-from fetch_pomdp.core.language import split
+from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.observation import phase_after
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.turns import LEAST, Turns, places_of

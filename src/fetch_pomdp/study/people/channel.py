@@ -9,8 +9,8 @@ from typing import Protocol
 
 from numpy.random import Generator
 
+from fetch_pomdp.core.language.words import COURTESY, NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.core.ports import Word
-from fetch_pomdp.core.words import COURTESY, NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.study.people.grammar import chosen
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.people.traits import Mood, shifted

@@ -11,7 +11,7 @@ from typing import Any, Self
 from numpy.random import Generator
 
 from fetch_pomdp import checks
-from fetch_pomdp.core.words import tokenize
+from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.study.people import traits

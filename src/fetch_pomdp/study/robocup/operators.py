@@ -10,10 +10,10 @@ import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp import checks
-from fetch_pomdp.core import language
 from fetch_pomdp.core.action import Action, Point
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray, is_pointing
+from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.layouts import HEAD, TABLE_HEIGHT
 from fetch_pomdp.core.model import Model
 from fetch_pomdp.core.observation import Observation
@@ -97,7 +97,7 @@ class Guest:
         """Return an answer after a question, and a ray most of the time."""
         chances = self.problem.step_chances(action)
         words = (
-            language.sample_response(self.desired, asked, self.problem, chances, self.rng) if asked is not None else ()
+            unigram.sample_response(self.desired, asked, self.problem, chances, self.rng) if asked is not None else ()
         )
         if isinstance(action, Point) and self.rng.random() < self.unknown:
             words = UNKNOWN

@@ -10,8 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fetch_pomdp.core import language
 from fetch_pomdp.core.action import Point, Wait
+from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.meaning import Meaning
+from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from tests.oracles import model as oracle
@@ -23,11 +25,11 @@ ANSWERS = oracle.YES_WORDS + oracle.NO_WORDS
 
 
 def base(words: str, problem: Problem) -> list[float]:
-    return [float(x) for x in np.exp(language.base_log_likelihood(tuple(words.split()), problem))]
+    return [float(x) for x in np.exp(unigram.base_log_likelihood(tuple(words.split()), problem))]
 
 
 def response(words: str, asked: int | None, problem: Problem, rate: float = 0.95) -> list[float]:
-    found = language.response_log_likelihood(tuple(words.split()), asked, problem, rate)
+    found = unigram.response_log_likelihood(tuple(words.split()), asked, problem, rate)
     return [float(x) for x in np.exp(found)]
 
 
@@ -94,9 +96,9 @@ def test_chances_of_single_answers_and_silence_sum_to_one(asked: int | None) -> 
 
 def test_rate_is_halved_after_a_wait_by_p_answer_again() -> None:
     problem = table([["cup"], ["mug"]], p_answer_again=0.5, p_l=0.9)
-    assert language.answer_rate(Point(0), problem) == pytest.approx(0.9)
-    assert language.answer_rate(Wait(), problem) == pytest.approx(0.45)
-    assert language.answer_rate(Wait(), table([["cup"]])) == pytest.approx(0.95)
+    assert unigram.answer_rate(Point(0), problem) == pytest.approx(0.9)
+    assert unigram.answer_rate(Wait(), problem) == pytest.approx(0.45)
+    assert unigram.answer_rate(Wait(), table([["cup"]])) == pytest.approx(0.95)
     assert response("yes", 0, problem, 0.45) == pytest.approx([0.45 * 0.99 / 4, 0.45 * 0.01 / 4])
     assert response("", 0, problem, 0.45) == pytest.approx([0.55, 0.55])
 
@@ -114,7 +116,7 @@ def test_a_person_who_never_errs() -> None:
 
 
 def test_split_by_the_paper_s_lists() -> None:
-    found = language.split(("the", "other", "cup", "yes", "left", "tea"), UNEQUAL)
+    found = unigram.split(("the", "other", "cup", "yes", "left", "tea"), UNEQUAL)
     assert found.base == ("cup", "tea")
     assert found.response == ("other", "yes")
     assert found.unknown == ("the", "left")
@@ -147,7 +149,7 @@ def assert_counts_match(counts: Counter[str], chances: dict[str, float], draws: 
 @pytest.mark.parametrize("desired", [0, 1, 2])
 def test_base_sampler_counted_against_the_likelihood(desired: int) -> None:
     rng, draws = np.random.default_rng(desired), 20_000
-    drawn = Counter(" ".join(language.sample_base(desired, UNEQUAL, rng)) for _ in range(draws))
+    drawn = Counter(" ".join(unigram.sample_base(desired, UNEQUAL, rng)) for _ in range(draws))
     chances = {word: base(word, UNEQUAL)[desired] for word in (*UNEQUAL.words, "")}
     assert_counts_match(drawn, chances, draws)
 
@@ -157,7 +159,7 @@ def test_base_sampler_counted_against_the_likelihood(desired: int) -> None:
 def test_response_sampler_counted_against_the_likelihood(asked: int | None, rate: float) -> None:
     rng, draws = np.random.default_rng(7), 20_000
     problem = table([["cup"], ["mug"]], p_truth=0.8)
-    drawn = Counter(" ".join(language.sample_response(0, asked, problem, rate, rng)) for _ in range(draws))
+    drawn = Counter(" ".join(unigram.sample_response(0, asked, problem, rate, rng)) for _ in range(draws))
     chances = {word: response(word, asked, problem, rate)[0] for word in (*ANSWERS, "")}
     assert_counts_match(drawn, chances, draws)
 
@@ -166,5 +168,15 @@ def test_word_selected_by_the_largest_number_exists() -> None:
     almost = math.nextafter(1.0, 0.0)
     for problem in (AMBIGUOUS, UNEQUAL, table([["a"], ["b", "c"]], alpha=1e-9), table([["a"], ["b", "c"]], alpha=1e9)):
         for item in range(problem.n_items):
-            assert 0 <= language.draw_word(item, 0.0, almost, problem.tables) < len(problem.words)
-            assert language.draw_word(item, almost, 0.0, problem.tables) == -1
+            assert 0 <= unigram.draw_word(item, 0.0, almost, problem.tables) < len(problem.words)
+            assert unigram.draw_word(item, almost, 0.0, problem.tables) == -1
+
+
+def test_an_utterance_says_what_its_last_answer_means() -> None:
+    meanings = {"cup": None, "": None, "yes": Meaning.YES, "no yes not": Meaning.NO, "pardon cup": Meaning.REPEAT}
+    for words, meaning in meanings.items():
+        assert unigram.split(tuple(words.split()), UNEQUAL).meaning is meaning
+    unsure = unigram.split(("unsure", "cup", "left"), UNEQUAL)
+    assert unsure == Utterance(("cup",), (), ("left",), Meaning.UNSURE)
+    named = table([["unsure"], ["mug"]])
+    assert unigram.split(("unsure",), named) == Utterance(("unsure",))

@@ -14,33 +14,41 @@ import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp.core.compiled import Vector, inlined
+from fetch_pomdp.core.language.meaning import MEANINGS, Meaning
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE, RESPONSES
 from fetch_pomdp.core.problem import Problem, Tables
 from fetch_pomdp.core.turns import StepChances
-from fetch_pomdp.core.words import NEGATIVE, POSITIVE, RESPONSES
 
 Words = tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Utterance:
-    """The words of an utterance l, split into those of Eq. 4, those of Eq. 6 and those not understood."""
+    """The words of an utterance l, split into those of Eq. 4, those of Eq. 6 and those not understood.
+
+    meaning: of the last answer in it, also of one that is no evidence about the item ("unsure"), which is in no part.
+    """
 
     base: Words = ()
     response: Words = ()
     unknown: Words = ()
+    meaning: Meaning | None = None
 
 
 def split(words: Words, problem: Problem) -> Utterance:
     """Split the words of an utterance (Section III-C); lower case, as `words.tokenize` gives them."""
-    base, response, unknown = [], [], []
+    base, response, unknown, meaning = [], [], [], None
     for word in words:
         if word in problem.word_index:
             base.append(word)
-        elif word in RESPONSES:
+            continue
+        answer = MEANINGS.get(word)
+        meaning = answer or meaning
+        if word in RESPONSES:
             response.append(word)
-        else:
+        elif answer is None:
             unknown.append(word)
-    return Utterance(tuple(base), tuple(response), tuple(unknown))
+    return Utterance(tuple(base), tuple(response), tuple(unknown), meaning)
 
 
 def base_log_likelihood(base: Words, problem: Problem) -> Vector:
