@@ -16,7 +16,7 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
-from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, loaded, warm_up
+from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, met_live, warm_up
 from fetch_pomdp.cli.show import show_event
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
@@ -74,7 +74,7 @@ def fetch(
     With --audio or --skeleton the person is a recording or a stream. With neither you are the person: type what you
     would say, with @item for an item that you point at.
     """
-    table = loaded(scene, model)
+    table = met_live(scene, model)
     parameters = {
         name: value for name, value in (("depth", depth), ("width", width), ("budget_ms", budget)) if value is not None
     }

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from fetch_pomdp.core.live.person import LIVE_MODEL, LIVE_REWARDS
 from fetch_pomdp.core.planners.base import Planner, prepare
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.problem import Problem
@@ -45,6 +46,12 @@ def built_planner(name: str | None, **parameters: Any) -> Planner:
 def loaded(scene: str, model: Path | None) -> Scene:
     """Return a scene by name or path, with the parameters of a model file if there is one."""
     table = Scene.load(scene)
+    return table if model is None else with_model(table, model)
+
+
+def met_live(scene: str, model: Path | None) -> Scene:
+    """Return a scene as `loaded`, before live people: with their model where neither file says otherwise."""
+    table = Scene.load(scene, LIVE_MODEL, LIVE_REWARDS)
     return table if model is None else with_model(table, model)
 
 

@@ -30,7 +30,7 @@ from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner, who
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.core.turns import constant_chances
+from fetch_pomdp.core.turns import StepChances, constant_chances
 from fetch_pomdp.errors import ActionError, ObservationError
 
 
@@ -90,6 +90,13 @@ class Agent:
         return After.NOTHING if self._evidence.unanswered is None else After.QUESTION
 
     @property
+    def chances(self) -> StepChances:
+        """The chances under which the next observation is read."""
+        if self.problem.model.turns:
+            return self.problem.step_chances(self._acted, self.phase)
+        return constant_chances(self.problem.model.p_l, self.problem.model.p_g)  # the action scales all items alike
+
+    @property
     def scene(self) -> Scene:
         """The table, with the model and rewards in force."""
         return self.problem.scene
@@ -112,11 +119,7 @@ class Agent:
     def update(self, observation: Observation) -> Utterance:
         """Take in an observation; return how its words were understood, by the paper's lists of answers."""
         utterance = unigram.split(observation.words, self.problem)
-        model = self.problem.model
-        chances = constant_chances(model.p_l, model.p_g)  # the action before scales all items alike
-        if model.turns:
-            chances = self.problem.step_chances(self._acted, self.phase)
-        parts = observations.log_likelihoods(observation, self.asked, self.problem, chances)
+        parts = observations.log_likelihoods(observation, self.asked, self.problem, self.chances)
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
         self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase)
         self._acted = Wait()

@@ -53,7 +53,9 @@ class Model:
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
         """Return this model with some parameters changed. Raises ModelError for a name that is none."""
         checks.known(changes, [field.name for field in dataclasses.fields(self)], "parameter", ModelError)
-        if isinstance(turns := changes.get("turns"), Mapping):
+        if changes.get("turns") is False:  # what a TOML file can say for none
+            changes = {**changes, "turns": None}
+        elif isinstance(turns := changes.get("turns"), Mapping):
             try:
                 changes = {**changes, "turns": (self.turns or Turns()).with_changes(turns)}
             except ModelError as error:

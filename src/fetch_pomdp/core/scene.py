@@ -89,22 +89,29 @@ class Scene:
         raise SceneError(f"found {checks.shown(id)}, expected one of {', '.join(names)}{more}", field=field)
 
     @classmethod
-    def load(cls, name_or_path: str | Path) -> Self:
+    def load(cls, name_or_path: str | Path, model: Model | None = None, rewards: Rewards | None = None) -> Self:
         """Return a built-in scene by name (ambiguous, unambiguous) or read one from a TOML file.
+
+        model, rewards: what holds where the file does not say; the paper's unless given.
 
         Raises SceneError or ModelError, with file, line and field, for what is not a scene.
         """
         if str(name_or_path) in LAYOUTS:
-            return cls.from_mapping(LAYOUTS[str(name_or_path)])
+            return cls.from_mapping(LAYOUTS[str(name_or_path)], model, rewards)
         path = Path(name_or_path)
         if not path.suffix and not os.path.exists(path):  # noqa: PTH110 (Path.exists raises for a name that is too long)
             names = ", ".join(LAYOUTS)
             raise SceneError(f"found no such scene or file, expected one of {names}, or a TOML file", source=str(path))
-        return read_toml(path, SceneError).build(cls.from_mapping)
+        return read_toml(path, SceneError).build(lambda data: cls.from_mapping(data, model, rewards))
 
     @classmethod
-    def from_mapping(cls, data: Mapping[str, Any]) -> Self:
-        """Build a scene from the fields of a scene file: head, items, and optionally model, rewards and answers."""
+    def from_mapping(
+        cls, data: Mapping[str, Any], model: Model | None = None, rewards: Rewards | None = None
+    ) -> Self:
+        """Build a scene from the fields of a scene file: head, items, and optionally model, rewards and answers.
+
+        model, rewards: what holds where the fields do not say; the paper's unless given.
+        """
         checks.known(data, ("head", "items", "model", "rewards", "answers"), "field", SceneError)
         checks.required(data, ("head", "items"), SceneError)
         if not isinstance(data["items"], list | tuple):
@@ -113,9 +120,9 @@ class Scene:
         items = tuple(_item(fields, f"items[{index}]") for index, fields in enumerate(data["items"]))
         try:
             section = "model"
-            model = Model().with_changes(checks.mapping(data.get("model", {}), "", SceneError))
+            model = (model or Model()).with_changes(checks.mapping(data.get("model", {}), "", SceneError))
             section = "rewards"
-            rewards = Rewards().with_changes(checks.mapping(data.get("rewards", {}), "", SceneError))
+            rewards = (rewards or Rewards()).with_changes(checks.mapping(data.get("rewards", {}), "", SceneError))
             section = "answers"
             answers = Answers.from_mapping(checks.mapping(data.get("answers", {}), "", SceneError))
         except InputError as error:

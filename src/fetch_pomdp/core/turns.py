@@ -53,23 +53,23 @@ class Turns:
     `fetch-pomdp calibrate --turns`.
     """
 
-    words_unbegun: Chances = (0.2, 0.6)
-    words_pointed: Chances = (0.2, 0.8)
-    words_due: Chances = (0.5, 0.85)
-    words_said: Chances = (0.05, 0.05)
-    words_heard: Chances = (0.05, 0.05)
-    words_silent: Chances = (0.15, 0.3)
-    words_denied: Chances = (0.1, 0.3)
-    points_unbegun: Chances = (0.6, 0.8)
-    points_pointed: Chances = (0.95, 0.95)
-    points_due: Chances = (0.8, 0.8)
-    points_said: Chances = (0.05, 0.05)
-    points_heard: Chances = (0.3, 0.5)
-    points_silent: Chances = (0.3, 0.4)
-    points_denied: Chances = (0.6, 0.7)
-    answers_desired: Ages = (0.5, 0.6, 0.6, 0.2)  # of an answer if the item asked about is the desired one
-    answers_other: Ages = (0.25, 0.6, 0.5, 0.3)  # and if it is not
-    answers_settled: tuple[float] = (0.01,)  # of another answer where no question is open
+    words_unbegun: Chances = (0.033, 0.6)
+    words_pointed: Chances = (0.355, 0.689)
+    words_due: Chances = (0.104, 0.455)
+    words_said: Chances = (0.031, 0.002)
+    words_heard: Chances = (0.046, 0.015)
+    words_silent: Chances = (0.015, 0.292)
+    words_denied: Chances = (0.003, 0.214)
+    points_unbegun: Chances = (0.504, 0.8)
+    points_pointed: Chances = (0.997, 0.998)
+    points_due: Chances = (0.259, 0.619)
+    points_said: Chances = (0.112, 0.051)
+    points_heard: Chances = (0.172, 0.344)
+    points_silent: Chances = (0.093, 0.377)
+    points_denied: Chances = (0.462, 0.626)
+    answers_desired: Ages = (0.308, 0.129, 0.635, 0.079)  # of an answer if the item asked about is the desired one
+    answers_other: Ages = (0.162, 0.367, 0.459, 0.176)  # and if it is not
+    answers_settled: tuple[float] = (0.064,)  # of another answer where no question is open
     patience: int = 6  # quiet steps after which people say it again
     question: int = 3  # quiet steps that the step of a question counts for
 

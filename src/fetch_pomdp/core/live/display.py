@@ -31,6 +31,7 @@ class Display:
     def __init__(self, agent: Agent, inbox: Inbox, listener: Callable[[Update], None]) -> None:
         self._agent, self._inbox, self._listener, self._lock = agent, inbox, listener, RLock()
         self._start, self._asked, self._after = agent.posterior, agent.asked, agent.after
+        self._chances = agent.chances
         self._taken: tuple[Word, ...] = ()  # from the inbox, but not in the agent's belief yet
         self._shown = Observation()
         self._unseen: float | None = None  # s, when something came that was not looked at yet
@@ -50,6 +51,7 @@ class Display:
         """Tell the belief that the agent begins with, or goes on with after what was taken has been left out."""
         with self._lock:
             self._start, self._asked, self._taken = self._agent.posterior, self._agent.asked, ()
+            self._chances = self._agent.chances
             self._after = self._agent.after
             self._shown = Observation()
             self._tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=()))
@@ -59,6 +61,7 @@ class Display:
         """Tell of an event that the agent has taken, and of the belief that the next step begins with."""
         with self._lock:
             self._start, self._asked, self._shown = self._agent.posterior, self._agent.asked, Observation()
+            self._chances = self._agent.chances
             self._after = following(event, self._agent)
             if isinstance(event, Acted):
                 self._tell(Did(event))
@@ -99,7 +102,7 @@ class Display:
             return
         self._shown = observation
         try:
-            belief = self._start.updated(observation, self._asked, self._agent.problem)
+            belief = self._start.updated(observation, self._asked, self._agent.problem, chances=self._chances)
         except InputError:  # impossible by the model: the step's end says so, if the words stay what they are
             return
         self._tell(BeliefChanged(time, belief.probabilities, provisional=True, words=texts(words)))
