@@ -18,6 +18,7 @@ from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import Summary
+from fetch_pomdp.core.turns import Turns
 from fetch_pomdp.files.models import write_model
 from fetch_pomdp.files.recordings import read_recording
 from fetch_pomdp.study.calibrate import calibration
@@ -25,6 +26,7 @@ from fetch_pomdp.study.calibrate.calibration import Calibration
 from fetch_pomdp.study.calibrate.estimate import Estimate
 from fetch_pomdp.study.calibrate.limits import Limit, limits
 from fetch_pomdp.study.calibrate.steps import Interaction, interaction_of
+from fetch_pomdp.study.calibrate.turns import tally
 
 Limits = tuple[Summary, tuple[Limit, ...]]
 MOST_CONFUSED = 10  # words said, in the table
@@ -33,11 +35,19 @@ Logs = Annotated[
     list[Path], typer.Argument(metavar="LOG...", help="Recorded interactions with `target` (docs/events.md).")
 ]
 Out = Annotated[Path | None, typer.Option(metavar="MODEL.toml", help="Write a new model file, for --model.")]
+TurnsToo = Annotated[
+    bool, typer.Option("--turns", help="Write also how people take turns: when they speak, point and answer.")
+]
 Episodes = Annotated[int, typer.Option(min=0, help="Simulated interactions for what limits accuracy; 0 leaves it out.")]
 
 
 def calibrate(
-    logs: Logs, out: Out = None, episodes: Episodes = 20_000, seed: Seed = None, json_lines: Json = False
+    logs: Logs,
+    out: Out = None,
+    episodes: Episodes = 20_000,
+    turns: TurnsToo = False,
+    seed: Seed = None,
+    json_lines: Json = False,
 ) -> None:
     """Estimate the model's parameters from interactions whose desired items are known, with 90 % intervals.
 
@@ -48,7 +58,7 @@ def calibrate(
     people = calibration.by_person(interactions) if found.people > 1 else {}
     limiting = _limits(interactions, found, episodes, seed or 0) if episodes else {}
     if out is not None:
-        _write(out, found)
+        _write(out, found, interactions if turns else [])
     if as_json(json_lines):
         print(json.dumps(_to_json(found, people, limiting), ensure_ascii=False))
         return
@@ -75,7 +85,7 @@ def _named(scene: Scene, number: int) -> str:
     return next(built_in, f"table {number}")
 
 
-def _write(out: Path, found: Calibration) -> None:
+def _write(out: Path, found: Calibration, of_turns: list[Interaction]) -> None:
     comments = [
         f"Fitted to {found.interactions} interactions with {found.people} people; 90 % intervals (docs/calibrate.md).",
         *(
@@ -85,7 +95,20 @@ def _write(out: Path, found: Calibration) -> None:
         *(f"{name} is not bounded from both sides: that would take {what}." for name, what in found.unknown().items()),
     ]
     told = {one.name: one for one in found.estimates if one.known != "none"}
-    write_model(out, comments, {name: (one.value, _range(one)) for name, one in told.items()})
+    values = {name: (one.value, _range(one)) for name, one in told.items()}
+    write_model(out, comments, values, _turns(of_turns) if of_turns else None)
+
+
+def _turns(interactions: list[Interaction]) -> dict[str, tuple[object, str]]:
+    """Return the chances of turn-taking, rounded, with the steps that each was counted in."""
+    start = interactions[0].scene.model.turns or Turns()
+    counted = tally(interactions, start)
+    fields = dataclasses.asdict(counted.turns(start))
+    return {
+        name: ([round(chance, 4) for chance in value], counted.counted(name)) if isinstance(value, tuple)
+        else (value, "steps, as before")
+        for name, value in fields.items()
+    }  # fmt: skip
 
 
 def _range(one: Estimate) -> str:

@@ -41,13 +41,20 @@ def changed(scene: Scene, data: Mapping[str, Any], kind: type[InputError]) -> Sc
     return dataclasses.replace(scene, model=model, rewards=rewards)
 
 
-def write_model(path: str | Path, comments: Sequence[str], values: Mapping[str, tuple[float, str]]) -> None:
-    """Write a model file: comments first, then each parameter with a comment of its own.
+def write_model(
+    path: str | Path,
+    comments: Sequence[str],
+    values: Mapping[str, tuple[float, str]],
+    turns: Mapping[str, tuple[object, str]] | None = None,
+) -> None:
+    """Write a model file: comments first, then each parameter, and each of turn-taking, with a comment of its own.
 
     Raises ModelError if the file exists or cannot be written.
     """
     lines = [f"# {comment}" for comment in comments] + ["[model]"]
     lines += [f"{name} = {value!r}  # {comment}" for name, (value, comment) in values.items()]
+    if turns is not None:
+        lines += ["[model.turns]", *(f"{name} = {value!r}  # {comment}" for name, (value, comment) in turns.items())]
     try:
         with Path(path).open("x", encoding="utf-8") as stream:
             stream.write("\n".join(lines) + "\n")

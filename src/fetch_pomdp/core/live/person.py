@@ -3,8 +3,9 @@
 The defaults of `Model` are the paper's, of people who speak in 19 of 20 seconds. Live people say a thing once and wait
 (`turns`), so that the robot would wait for their next word for ever; Section V saw that too.
 
-Choice: sigma and p_truth are those of our simulated people, as `fetch-pomdp calibrate` finds them: their arms lie
-nearer than 0.15 rad, and their answers are misheard more often than once in a hundred.
+Choice: alpha, sigma and p_truth are those of our simulated people, as `fetch-pomdp calibrate` finds them: a word that
+is not the item's is rarer than the paper has it, arms lie nearer than 0.15 rad, and answers are misheard more often
+than once in a hundred.
 
 Choice: a question costs the time it takes, in waits, and a wrong item twice what a right one earns: it is carried over,
 refused and carried back. At the paper's 6 points a question is dearer than a guess between two items that are
@@ -16,5 +17,5 @@ from __future__ import annotations
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.turns import Turns
 
-LIVE_MODEL = Model(p_l=0.3, p_g=0.1, sigma=0.075, p_truth=0.95, turns=Turns())
+LIVE_MODEL = Model(alpha=0.04, p_l=0.3, p_g=0.1, sigma=0.075, p_truth=0.95, turns=Turns())
 LIVE_REWARDS = Rewards(point=-2.8, pick_wrong=-20.0)

@@ -36,6 +36,11 @@ class Tally:
         }
         return dataclasses.replace(start, **found)
 
+    def counted(self, name: str) -> str:
+        """Return how many steps each chance of a field was counted in, for a person to read."""
+        steps = [count for (field, _), count in sorted(self.steps.items()) if field == name]
+        return f"of {', '.join(map(str, steps))} steps" if steps else "as before: no step tells anything of it"
+
     def _chance(self, name: str, index: int, before: float) -> float:
         happened, steps = self.happened.get((name, index), 0), self.steps.get((name, index), 0)
         return min(max((happened + TRUST * before) / (steps + TRUST), LEAST), 1.0 - LEAST)
