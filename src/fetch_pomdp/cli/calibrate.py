@@ -105,7 +105,7 @@ def _turns(interactions: list[Interaction]) -> dict[str, tuple[object, str]]:
     counted = tally(interactions, start)
     fields = dataclasses.asdict(counted.turns(start))
     return {
-        name: ([round(chance, 4) for chance in value], counted.counted(name)) if isinstance(value, tuple)
+        name: ([min(float(f"{chance:.3g}"), 0.999) for chance in value], counted.counted(name)) if isinstance(value, tuple)
         else (value, "steps, as before")
         for name, value in fields.items()
     }  # fmt: skip

@@ -16,7 +16,18 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
-from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, met_live, warm_up
+from fetch_pomdp.cli.options import (
+    Budget,
+    Depth,
+    Json,
+    ModelFile,
+    PlannerName,
+    SceneName,
+    Seed,
+    Width,
+    met_live,
+    warm_up,
+)
 from fetch_pomdp.cli.show import show_event
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent

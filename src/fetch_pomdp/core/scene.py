@@ -105,9 +105,7 @@ class Scene:
         return read_toml(path, SceneError).build(lambda data: cls.from_mapping(data, model, rewards))
 
     @classmethod
-    def from_mapping(
-        cls, data: Mapping[str, Any], model: Model | None = None, rewards: Rewards | None = None
-    ) -> Self:
+    def from_mapping(cls, data: Mapping[str, Any], model: Model | None = None, rewards: Rewards | None = None) -> Self:
         """Build a scene from the fields of a scene file: head, items, and optionally model, rewards and answers.
 
         model, rewards: what holds where the fields do not say; the paper's unless given.
