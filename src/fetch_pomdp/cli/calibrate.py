@@ -104,11 +104,13 @@ def _turns(interactions: list[Interaction]) -> dict[str, tuple[object, str]]:
     start = interactions[0].scene.model.turns or Turns()
     counted = tally(interactions, start)
     fields = dataclasses.asdict(counted.turns(start))
-    return {
-        name: ([min(float(f"{chance:.3g}"), 0.999) for chance in value], counted.counted(name)) if isinstance(value, tuple)
-        else (value, "steps, as before")
-        for name, value in fields.items()
-    }  # fmt: skip
+    fitted: dict[str, tuple[object, str]] = {}
+    for name, value in fields.items():
+        if isinstance(value, tuple):
+            fitted[name] = [min(float(f"{chance:.3g}"), 0.999) for chance in value], counted.counted(name)
+        else:
+            fitted[name] = value, "steps, as before"
+    return fitted
 
 
 def _range(one: Estimate) -> str:

@@ -10,7 +10,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.explain import even
-from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED
+from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED, texts
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
@@ -106,8 +106,11 @@ def event_message(event: Event, agent: Agent) -> Told | None:
         return None
     parts = split(event.observation.words, agent.problem)
     unknown = [word for word in parts.unknown if word not in COURTESY]
-    understood = bool(parts.base or parts.response)
-    return {"type": "observed", "unknown": unknown, "understood": understood, **event_to_json(event, agent.scene)}
+    understood = bool(parts.base or parts.meaning)
+    fields = event_to_json(event, agent.scene)
+    if event.words:
+        fields["observation"]["utterance"] = " ".join(texts(event.words))  # as it was heard, not as it was read
+    return {"type": "observed", "unknown": unknown, "understood": understood, **fields}
 
 
 def complaint(error: Exception, code: str = "refused") -> Told:
