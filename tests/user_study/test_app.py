@@ -17,16 +17,16 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from fetch_pomdp.adapters.store.store import Store
-from fetch_pomdp.adapters.web.hall import Config
-from fetch_pomdp.adapters.web.participation import registry, rounds
-from fetch_pomdp.adapters.web.participation.registry import Venue
+from fetch_pomdp.adapters.web.connection_manager import ServerConfig
+from fetch_pomdp.adapters.web.ears import speech_if_installed
 from fetch_pomdp.adapters.web.server import create_app
 from fetch_pomdp.errors import StoreError
-from fetch_pomdp.study.from_logs import trials_of
-from fetch_pomdp.study.participation import load_participation
-from tests.adapters.web.participation.small import STUDY, small_study
-from tests.adapters.web.test_server import HOME, House, Page, nonsense
+from fetch_pomdp.user_study import trial
+from fetch_pomdp.user_study.app import StudyApp
+from fetch_pomdp.user_study.config import load_user_study
+from fetch_pomdp.user_study.store.store import Store
+from tests.adapters.web.test_server import ENDLESS, HOME, House, Page, house_of, nonsense
+from tests.user_study.small import STUDY, small_study
 
 TOKEN = "a researcher's own secret"
 HIDDEN = {"belief", "values", "errors", "explanation", "unknown", "planner", "paradigm", "heard", "observation"}
@@ -36,8 +36,10 @@ HIDDEN = {"belief", "values", "errors", "explanation", "unknown", "planner", "pa
 def study_at(folder: Path, text: str = STUDY, **config: Any) -> Iterator[House]:
     """A server with a study; started again at the same folder it goes on."""
     store = Store.open(f"sqlite:///{folder / 'participants.db'}")
-    venue = Venue(load_participation(small_study(folder, text)), store, TOKEN, trials_of)
-    with TestClient(create_app(Config(**config), venue), base_url=HOME) as client:
+    speech = speech_if_installed()
+    study = StudyApp(load_user_study(small_study(folder, text)), store, TOKEN, speech=speech)
+    app = create_app(ServerConfig(**config), study, voice=speech.voice, routes=study.routes())
+    with TestClient(app, base_url=HOME) as client:
         house = House(client)
         try:
             yield house
@@ -107,7 +109,7 @@ def test_from_consent_to_completion_code(tmp_path: Path) -> None:
         reply(page, "questions", open="")
         first = stage(page, "questions")
         assert [question["id"] for question in first["questions"]] == ["open"]
-        assert page.next("error")["message"] == "open: found no answer, expected one"
+        assert page.next("error")["message"] == "open: an answer is required"
         reply(page, "questions", open="Everything.")
         assert [question["id"] for question in stage(page, "questions", order=1)["questions"]] == ["kinds", "ease"]
         reply(page, "questions", kinds=["places", "names"], ease=6)
@@ -201,14 +203,14 @@ def test_what_is_said_before_the_countdown_s_end_reaches_nobody(tmp_path: Path) 
 
 
 def test_who_has_waited_long_may_give_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rounds, "GIVE_UP", 1.0)
+    monkeypatch.setattr(trial, "GIVE_UP", 1.0)
     with study_at(tmp_path) as house:
         page, _ = enrolled(house)
         reply(page, "instructions")
         fetched(page, begin(page, "practice"))
         begin(page, "trials")
         page.send({"type": "give_up"})
-        assert "expected it from 1 s on" in page.next("error")["message"]
+        assert "can be given up after 1 s" in page.next("error")["message"]
         time.sleep(1.0)
         page.send({"type": "give_up"})
         assert page.next("ended")["picked"] is None
@@ -250,10 +252,7 @@ def test_sound_is_kept_of_who_agrees_and_of_nobody_else(tmp_path: Path, agreed: 
 
 @pytest.mark.parametrize("path", ["/researcher/progress", "/researcher/export"])
 @pytest.mark.parametrize("header", ["", "Bearer", "Bearer a guess", f"Basic {TOKEN}", "Bearer é"])
-def test_a_researcher_s_door_needs_the_token(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str, header: str
-) -> None:
-    monkeypatch.setattr(registry, "PENALTY", 0.0)
+def test_a_researcher_s_door_needs_the_token(tmp_path: Path, path: str, header: str) -> None:
     with study_at(tmp_path) as house:
         _, told = enrolled(house)
         answer = house.client.get(path, headers=[(b"authorization", header.encode())])
@@ -263,8 +262,8 @@ def test_a_researcher_s_door_needs_the_token(
 
 
 def test_without_a_study_there_is_no_researcher_s_door() -> None:
-    with TestClient(create_app(Config()), base_url=HOME) as client:
-        assert client.get("/researcher/progress").status_code == 404
+    with house_of() as house:
+        assert house.client.get("/researcher/progress").status_code == 404
 
 
 def test_a_database_that_breaks_is_no_reason_to_tell_its_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -281,7 +280,7 @@ def test_a_database_that_breaks_is_no_reason_to_tell_its_place(tmp_path: Path, m
 
 def test_malformed_messages_end_nothing(tmp_path: Path) -> None:
     rng = random.Random(1)
-    with study_at(tmp_path, messages=1e9, sound=1e9) as house:
+    with study_at(tmp_path, limits=ENDLESS) as house:
         page, _ = enrolled(house)
         for number in range(2_000):
             page.send(garbled(rng, number))

@@ -10,18 +10,18 @@ import pytest
 from fetch_pomdp.core.action import Point
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.files.lively import LIVE_MODEL
-from fetch_pomdp.study.participation import Participation, load_participation, template
-from tests.adapters.web.participation.small import STUDY, small_study
+from fetch_pomdp.user_study.config import UserStudy, load_user_study, template
+from tests.user_study.small import STUDY, small_study
 
 
 @pytest.fixture
-def paper(tmp_path: Path) -> Participation:
+def paper(tmp_path: Path) -> UserStudy:
     path = tmp_path / "paper.toml"
     path.write_text(template())
-    return load_participation(path)
+    return load_user_study(path)
 
 
-def test_the_template_is_the_paper_s_design_with_live_people(paper: Participation) -> None:
+def test_the_template_is_the_paper_s_design_with_live_people(paper: UserStudy) -> None:
     assert (paper.name, paper.people, paper.practice, paper.countdown, paper.keep_sound) == ("paper", 16, 2, 3.0, False)
     for person in (0, 1):
         trials = paper.trials(person)
@@ -40,14 +40,14 @@ def test_the_robot_that_fetches_asks_who_has_said_too_little(tmp_path: Path, par
     """Not so the paper's search at a live table's p_l: it would pick at random, or wait for ever."""
     path = tmp_path / "mine.toml"
     path.write_text(f'{paradigms}\n[participation]\ntitle = {{en = "Mine"}}\nconsent = {{en = "Yours?"}}')
-    trial = next(each for each in load_participation(path).trials(0) if each.paradigm == "fetch")
+    trial = next(each for each in load_user_study(path).trials(0) if each.paradigm == "fetch")
     agent = trial.agent(seed=0)
     agent.observe("hand me the green marker pen")
     assert trial.layout == "ambiguous"
     assert isinstance(agent.act(), Point)
 
 
-def test_the_open_question_comes_before_what_might_lead_its_answer(paper: Participation) -> None:
+def test_the_open_question_comes_before_what_might_lead_its_answer(paper: UserStudy) -> None:
     assert [(question.id, question.kind) for question in paper.questions if question.page == 1] == [
         ("understood", "text")
     ]
@@ -59,7 +59,7 @@ def test_the_open_question_comes_before_what_might_lead_its_answer(paper: Partic
             assert texts.keys() == {"en", "de"}
 
 
-def test_practice_is_drawn_for_each_person_and_the_same_again(paper: Participation) -> None:
+def test_practice_is_drawn_for_each_person_and_the_same_again(paper: UserStudy) -> None:
     drawn = {person: paper.practice_trials(person) for person in range(8)}
     assert drawn[3] == paper.practice_trials(3)
     assert len({tuple((trial.target, trial.paradigm) for trial in trials) for trials in drawn.values()}) > 4
@@ -70,13 +70,13 @@ def test_practice_is_drawn_for_each_person_and_the_same_again(paper: Participati
 def test_wordings_may_change_and_nothing_else(tmp_path: Path) -> None:
     def digest(old: str, new: str) -> str:
         assert old in STUDY
-        return load_participation(small_study(tmp_path, STUDY.replace(old, new))).digest
+        return load_user_study(small_study(tmp_path, STUDY.replace(old, new))).digest
 
     same = digest("people = 2", "people = 2")
     assert digest("You talk to a robot.", "You talk to this robot.") == same
     assert digest("What did it understand?", "What did it grasp?") == same
     simulated = "people = 2\nlogs = true\n[clock]\nwait = 0.7\n"
-    assert load_participation(small_study(tmp_path, moved(simulated))).digest == same, "of simulated people alone"
+    assert load_user_study(small_study(tmp_path, moved(simulated))).digest == same, "of simulated people alone"
     changes = [
         ("trials = 1", "trials = 2"), ("practice = 1", "practice = 2"), ("0.1", "0.2"),
         ('id = "ease"', 'id = "effort"'), ("required = false", "required = true"),
@@ -110,6 +110,6 @@ def moved(front: str) -> str:
 def test_what_is_wrong_is_named_with_its_place(tmp_path: Path, old: str, new: str, complaint: str) -> None:
     assert old in STUDY
     with pytest.raises(InputError) as found:
-        load_participation(small_study(tmp_path, STUDY.replace(old, new)))
+        load_user_study(small_study(tmp_path, STUDY.replace(old, new)))
     assert f"{tmp_path / 'small.toml'}:" in str(found.value)
     assert complaint in str(found.value)

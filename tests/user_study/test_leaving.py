@@ -10,14 +10,14 @@ from typing import Any
 import pytest
 from starlette.websockets import WebSocketDisconnect
 
-from fetch_pomdp.adapters.store.journal import TrialJournal
-from fetch_pomdp.adapters.store.store import Store
-from fetch_pomdp.adapters.web.participation import rounds
-from fetch_pomdp.adapters.web.visit import TRY_LATER
+from fetch_pomdp.adapters.web.page_connection import TRY_LATER
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.errors import StoreError
-from tests.adapters.web.participation.test_study import begin, enrolled, fetched, progress, reply, stage, study_at
+from fetch_pomdp.user_study import trial
+from fetch_pomdp.user_study.store.store import Store
+from fetch_pomdp.user_study.store.trials import StoredTrial
 from tests.adapters.web.test_server import Page
+from tests.user_study.test_app import begin, enrolled, fetched, progress, reply, stage, study_at
 
 
 def failing(*_: object, **__: object) -> Any:
@@ -38,11 +38,11 @@ def query(folder: Path, text: str) -> list[tuple[Any, ...]]:
         return connection.execute(text).fetchall()
 
 
-@pytest.mark.parametrize(("owner", "name"), [(TrialJournal, "write"), (Agent, "decide")])
+@pytest.mark.parametrize(("owner", "name"), [(StoredTrial, "write"), (Agent, "decide")])
 def test_a_round_that_breaks_ends_and_is_gone_on_with(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, owner: type, name: str
 ) -> None:
-    monkeypatch.setattr(rounds, "GIVE_UP", 0.0)
+    monkeypatch.setattr(trial, "GIVE_UP", 0.0)
     with study_at(tmp_path) as house:
         page, told = enrolled(house)
         reply(page, "instructions")

@@ -1,1 +1,1 @@
-"""Studies with real people: who comes is led from consent to completion code (docs/study-with-people.md)."""
+"""User studies with real people, led from consent to completion code in a browser (docs/study-with-people.md)."""

@@ -1,4 +1,4 @@
-"""Who comes to take part in a study, and the researcher's doors to it."""
+"""A user study on a server: a session for each participant, and the researcher's routes."""
 
 from __future__ import annotations
 
@@ -6,113 +6,120 @@ import asyncio
 import dataclasses
 import shutil
 import tempfile
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Awaitable, Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
-from fetch_pomdp.adapters.speech.espeak import Voice
-from fetch_pomdp.adapters.store.exporting import Scored
-from fetch_pomdp.adapters.store.participant import Participant
-from fetch_pomdp.adapters.store.store import Store
-from fetch_pomdp.adapters.web.ears import Hearing
-from fetch_pomdp.adapters.web.gate import Gate
-from fetch_pomdp.adapters.web.hall import PENALTY
+from fetch_pomdp.adapters.web.access import TokenCheck, TooManyGuessesError
+from fetch_pomdp.adapters.web.ears import Speech
 from fetch_pomdp.adapters.web.journal import name_of
-from fetch_pomdp.adapters.web.participation.attendance import Attendance
-from fetch_pomdp.adapters.web.participation.programme import Programme
-from fetch_pomdp.adapters.web.protocol import Hello
-from fetch_pomdp.adapters.web.tell import Told
+from fetch_pomdp.adapters.web.page_messages import Hello
+from fetch_pomdp.adapters.web.server_messages import Send
 from fetch_pomdp.core.planners.base import prepare
-from fetch_pomdp.extras import load
+from fetch_pomdp.errors import MessageError
+from fetch_pomdp.user_study.config import UserStudy
+from fetch_pomdp.user_study.session import ParticipantSession
+from fetch_pomdp.user_study.store.participants import Participant
+from fetch_pomdp.user_study.store.store import Store
 
-EXTRA = "serve"
+if TYPE_CHECKING:
+    from starlette.requests import Request
+    from starlette.responses import Response
+    from starlette.routing import BaseRoute
 
 
-class Registry:
-    """A Reception: table and robot are the study's. voice, hearing: None where they are not installed."""
+class StudyApp:
+    """A SessionOpener whose tables and robots are the study's, with the researcher's routes.
 
-    def __init__(self, venue: Venue, *, voice: Voice | None, hearing: Hearing | None) -> None:
-        self._venue, self._voice, self._hearing = venue, voice, hearing
+    token: of the researcher. Raises StoreError if the study has changed since its first participant.
+    """
 
-    def name(self, hello: Hello) -> str | None:
-        """Return the name of the attendance that a page comes back to, if it does."""
+    def __init__(self, study: UserStudy, store: Store, token: str, *, speech: Speech) -> None:
+        self._study, self._store, self._speech = study, store, speech
+        self._tokens = TokenCheck(token)
+        store.begin(study.name, study.digest, study.people)
+
+    def session_name(self, hello: Hello) -> str | None:
+        """Return the name of the session that a page comes back to, None for a new page."""
         return None if hello.participant is None else name_of(hello.participant)
 
-    def returning(self, hello: Hello, tell: Callable[[Told], None]) -> Attendance | None:
-        """Return the attendance of who comes back, None for nobody we know."""
-        secret, venue = hello.participant, self._venue
-        person = None if secret is None else venue.store.returning(venue.programme.name, secret)
-        return None if person is None else self._attendance(tell, secret, person)
+    def resume(self, hello: Hello, send: Send) -> ParticipantSession | None:
+        """Return the session of a participant who comes back, None for an unknown secret."""
+        secret = hello.participant
+        person = None if secret is None else self._store.returning(self._study.name, secret)
+        return None if secret is None or person is None else self._session(send, (secret, person))
 
-    def newcomer(self, hello: Hello, tell: Callable[[Told], None]) -> Attendance:  # noqa: ARG002
-        """Return the attendance of somebody new."""
-        return self._attendance(tell, None, None)
+    def new(self, hello: Hello, send: Send) -> ParticipantSession:  # noqa: ARG002
+        """Return the session of somebody new."""
+        return self._session(send, None)
 
-    def get_ready(self) -> None:
-        """Compile the planners and solve the tables before the first person comes."""
-        for header in self._venue.programme.robots():
+    def warm_up(self) -> None:
+        """Compile the planners and solve the tables before the first page comes."""
+        for header in self._study.robots():
             agent = header.agent()
             prepare(agent.planner, agent.problem)
 
-    def _attendance(self, tell: Callable[[Told], None], secret: str | None, person: Participant | None) -> Attendance:
-        return Attendance(
-            self._venue.programme, self._venue.store, tell,
-            secret=secret, person=person, voice=self._voice, hearing=self._hearing,
-        )  # fmt: skip
+    def routes(self) -> list[BaseRoute]:
+        """Return the researcher's routes."""
+        from starlette.routing import Route
 
-
-@dataclass(frozen=True, slots=True)
-class Venue:
-    """Where a study takes place. token: what a researcher must know; scored: makes rows of trials (`Store.export`)."""
-
-    programme: Programme
-    store: Store
-    token: str
-    scored: Scored
-
-    def reception(self, voice: Voice | None, hearing: Hearing | None) -> Registry:
-        """Return who receives the participants. Raises StoreError if the study has changed since it began."""
-        self.store.begin(self.programme.name, self.programme.digest, self.programme.people)
-        return Registry(self, voice=voice, hearing=hearing)
-
-    def routes(self) -> list[Any]:
-        """Return the routes of the researcher's page. Raises MissingExtraError without FastAPI."""
-        routing = load("starlette.routing", EXTRA)
         return [
-            routing.Route("/researcher/progress", self._guarded(self._progress)),
-            routing.Route("/researcher/export", self._guarded(self._export)),
+            Route("/researcher/progress", self._protected(self._progress)),
+            Route("/researcher/export", self._protected(self._export)),
         ]
 
-    def _guarded(self, answer: Callable[[], Any]) -> Callable[[Any], Any]:
-        """Return an endpoint that answers who knows the token, and lets others wait."""
-        gate, responses = Gate(self.token), load("starlette.responses", EXTRA)
+    def _session(self, send: Send, returning: tuple[str, Participant] | None) -> ParticipantSession:
+        return ParticipantSession(self._study, self._store, send, speech=self._speech, returning=returning)
 
-        async def endpoint(request: Any) -> Any:
+    def _protected(self, answer: Callable[[], Response]) -> Callable[[Request], Awaitable[Response]]:
+        """Return an endpoint for those who know the token."""
+        from starlette.responses import PlainTextResponse
+
+        async def endpoint(request: Request) -> Response:
             kind, _, token = request.headers.get("authorization", "").partition(" ")
-            if kind.lower() != "bearer" or not gate.token_allowed(token):
-                await asyncio.sleep(PENALTY)
+            try:
+                self._tokens.check(token if kind.lower() == "bearer" else None, _address(request))
+            except TooManyGuessesError as error:
+                return PlainTextResponse(str(error), 429, {"retry-after": "1"})
+            except MessageError:
                 challenge = {"www-authenticate": "Bearer"}
-                return responses.PlainTextResponse("the researcher's token is needed", 401, challenge)
-            return await asyncio.to_thread(answer)
+                return PlainTextResponse("the researcher's token is needed", 401, challenge)
+            return await _in_own_thread(answer)
 
         return endpoint
 
-    def _progress(self) -> Any:
-        rows = [dataclasses.asdict(row) for row in self.store.progress(self.programme.name)]
-        study = {"name": self.programme.name, "title": dict(self.programme.title), "people": self.programme.people}
-        return load("starlette.responses", EXTRA).JSONResponse({**study, "progress": rows})
+    def _progress(self) -> Response:
+        from starlette.responses import JSONResponse
 
-    def _export(self) -> Any:
-        """Return all that is kept of the study, as a ZIP file that is gone when it has been sent."""
-        responses, background = load("starlette.responses", EXTRA), load("starlette.background", EXTRA)
+        rows = [dataclasses.asdict(row) for row in self._store.progress(self._study.name)]
+        study = {"name": self._study.name, "title": dict(self._study.title), "people": self._study.people}
+        return JSONResponse({**study, "progress": rows})
+
+    def _export(self) -> Response:
+        """Return all that is kept of the study, as a ZIP file that is deleted when it has been sent."""
+        from starlette.background import BackgroundTask
+        from starlette.responses import FileResponse
+
         folder = Path(tempfile.mkdtemp(prefix="fetch-pomdp-export-"))
         try:
-            self.store.export(folder / self.programme.name, self.programme.name, scored=self.scored)
-            made = shutil.make_archive(str(folder / "export"), "zip", folder, self.programme.name)
+            self._store.export(folder / self._study.name, self._study.name)
+            made = shutil.make_archive(str(folder / "export"), "zip", folder, self._study.name)
         except BaseException:
             shutil.rmtree(folder)
             raise
-        gone = background.BackgroundTask(shutil.rmtree, folder)
-        name = f"{self.programme.name}.zip"
-        return responses.FileResponse(made, media_type="application/zip", filename=name, background=gone)
+        delete = BackgroundTask(shutil.rmtree, folder)
+        return FileResponse(made, media_type="application/zip", filename=f"{self._study.name}.zip", background=delete)
+
+
+def _address(request: Request) -> str:
+    return request.client.host if request.client else ""
+
+
+async def _in_own_thread(answer: Callable[[], Response]) -> Response:
+    """Run in a new thread: an export may take long, and nobody else waits for it."""
+    thread = ThreadPoolExecutor(1, thread_name_prefix="researcher")
+    try:
+        return await asyncio.get_running_loop().run_in_executor(thread, answer)
+    finally:
+        thread.shutdown(wait=False)

@@ -1,4 +1,4 @@
-"""A study with real people: its design, and what they read, agree to and are asked (docs/study-with-people.md)."""
+"""The configuration of a user study: its design, and what people read, agree to and are asked."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.lively import live_scene
 from fetch_pomdp.study.configuration import digest, study_from_mapping, to_plain
 from fetch_pomdp.study.design import PRACTICE, Study, assignments_of, stream
-from fetch_pomdp.study.questions import Question, question_from_mapping, texts, truth
 from fetch_pomdp.study.trial import Assignment
+from fetch_pomdp.user_study.questionnaire import Question, question_from_mapping, texts, truth
 
 SECTION = "participation"
 FIELDS = ("title", "consent", "instructions", "practice", "questions", "keep_sound", "countdown")
@@ -28,11 +28,11 @@ LONGEST_COUNTDOWN = 60.0  # s
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Participation:
+class UserStudy:
     """A study in which real people take part. Texts are by language, each with English.
 
-    The robot expects of them what it expects of live people (files/lively.py) where the study's files do not say.
-    Raises StudyError for a part that cannot be.
+    Where the study's files do not say, the robot expects of them what it expects of live people (files/lively.py).
+    Raises StudyError for an invalid field.
     """
 
     name: str  # of the study, in a database of participants
@@ -62,10 +62,10 @@ class Participation:
 
     @property
     def digest(self) -> str:
-        """A text that changes with what answers and trials depend on.
+        """A hash of all that answers and trials depend on.
 
-        Choice: wordings are no part of it, so that a misprint can be mended while a study goes on; of the text that was
-        agreed to a hash is kept with each consent.
+        Choice: wordings are not part of it, so that a misprint can be corrected while a study is running; a hash of the
+        text that was agreed to is kept with each consent.
         """
         study = {name: value for name, value in to_plain(self.study).items() if name not in SIMULATED}
         asked = [
@@ -75,13 +75,13 @@ class Participation:
         return digest({"study": study, "practice": self.practice, "countdown": self.countdown, "asked": asked})
 
     def trials(self, person: int) -> tuple[Header, ...]:
-        """Return what each trial of a person is about, in their order; each begins at 0 s."""
+        """Return the headers of a person's trials, in order; each begins at 0 s."""
         return tuple(self._header(assignment) for assignment in assignments_of(self.study, person))
 
     def practice_trials(self, person: int) -> tuple[Header, ...]:
-        """Return what a person's trials before those that count are about.
+        """Return the headers of a person's practice trials.
 
-        Choice: items and paradigms are drawn anew for each person, so that practice prefers none.
+        Choice: items and paradigms are drawn anew for each person, so that practice favours none.
         """
         layout, rng = self.study.layout_of(person), stream(self.study, PRACTICE, person)
         items = [item.id for item in self.study.layouts[layout].items]
@@ -106,19 +106,19 @@ class Participation:
         return dataclasses.replace(self.study.header(assignment), begun=0.0)
 
 
-def load_participation(path: str | Path) -> Participation:
-    """Read a study with real people from a TOML file: that of a study, and a section [participation].
+def load_user_study(path: str | Path) -> UserStudy:
+    """Read a user study from a TOML file: that of a study, with a section [participation].
 
-    Title and consent must be there, all else is as in the template where it is missing. The file's name is that of the
-    study. Raises InputError with file, line and field.
+    Title and consent are required; what else is missing is as in the template. The study has the file's name. Raises
+    InputError with file, line and field.
     """
     place = Path(path)
     document = read_toml(place, StudyError)
-    return document.build(lambda data: participation_from_mapping(data, place.parent, place.stem))
+    return document.build(lambda data: user_study_from_mapping(data, place.parent, place.stem))
 
 
-def participation_from_mapping(data: Mapping[str, Any], folder: Path, name: str) -> Participation:
-    """Build a study with real people from the fields of a file in `folder`."""
+def user_study_from_mapping(data: Mapping[str, Any], folder: Path, name: str) -> UserStudy:
+    """Build a user study from the fields of a file in `folder`."""
     usual = _template()
     design = {"paradigms": usual["paradigms"]} | {key: data[key] for key in data if key != SECTION}
     study = study_from_mapping(design, folder, live_scene)
@@ -128,7 +128,7 @@ def participation_from_mapping(data: Mapping[str, Any], folder: Path, name: str)
         checks.known(given, FIELDS, "field", StudyError)
         checks.required(given, ("title", "consent"), StudyError)
         fields = {**usual[SECTION], **given}
-        return Participation(
+        return UserStudy(
             name=name,
             study=study,
             questions=_questions(fields["questions"]),
@@ -150,8 +150,8 @@ def _questions(value: object) -> tuple[Question, ...]:
 
 
 def template() -> str:
-    """Return a study file to begin with, with comments."""
-    return (files("fetch_pomdp.study") / "participation.toml").read_text(encoding="utf-8")
+    """Return the text of a study file to begin with."""
+    return (files("fetch_pomdp.user_study") / "template.toml").read_text(encoding="utf-8")
 
 
 def _template() -> Mapping[str, Any]:

@@ -1,21 +1,20 @@
-"""Messages of a page, waited for by the thread that leads its person through a study.
+"""The messages of a participant's page, waiting for the thread that runs the participant's session.
 
-Choice: who withdraws does so whatever else is going on: it counts though the page left right after it, and though too
-much was sent before it.
+Choice: a withdrawal counts whatever else is going on: also if the page left right after it, and if too many messages
+came before it.
 """
 
 from __future__ import annotations
 
 import queue
 import time
-from collections.abc import Callable
 from typing import Any
 
-from fetch_pomdp.adapters.web.participation.messages import Withdraw
-from fetch_pomdp.adapters.web.tell import Told, complaint
+from fetch_pomdp.adapters.web.server_messages import Send, error_message
 from fetch_pomdp.errors import MessageError
+from fetch_pomdp.user_study.messages import Withdraw
 
-MOST = 1_000  # messages that were not looked at yet
+MOST = 1_000  # unread messages
 
 
 class LeftError(Exception):
@@ -23,34 +22,34 @@ class LeftError(Exception):
 
 
 class WithdrawnError(Exception):
-    """The person takes part no longer."""
+    """The person has withdrawn."""
 
 
 class BrokenError(Exception):
-    """What the person was led through cannot go on, by no fault of theirs."""
+    """The trial cannot go on, through no fault of the person."""
 
 
 class Mailbox:
-    """Messages in their order. tell: is told of those that nobody expects.
+    """Messages in order. send: gets an error for each message that is not expected.
 
-    withdrawn: whether the person has said that they take part no longer.
+    withdrawn: whether the person has withdrawn.
     """
 
-    def __init__(self, tell: Callable[[Told], None]) -> None:
-        self._tell = tell
+    def __init__(self, send: Send) -> None:
+        self._send = send
         self._waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._closed = False
         self.withdrawn = False
 
     def put(self, message: Any) -> None:
-        """Leave a message of the page, from any thread. Raises MessageError when too many are there."""
+        """Add a message of the page, from any thread. Raises MessageError if too many are waiting."""
         self.withdrawn = self.withdrawn or isinstance(message, Withdraw)
         if self._waiting.qsize() > MOST and not self.withdrawn:
-            raise MessageError(f"found {MOST} messages waiting, expected fewer")
+            raise MessageError(f"too many messages at once (more than {MOST} are waiting)")
         self._waiting.put(message)
 
     def post(self, message: Any) -> None:
-        """Leave a message of the server's own, from any thread; an exception is raised where messages are expected."""
+        """Add a message of the server's own, from any thread; `expect` raises one that is an exception."""
         self._waiting.put(message)
 
     def close(self) -> None:
@@ -94,4 +93,4 @@ class Mailbox:
     def _refuse(self, message: object, kinds: tuple[type, ...]) -> None:
         names = ", ".join(kind.__name__ for kind in kinds) or "nothing"
         found = f"found {type(message).__name__}, expected {names} now"
-        self._tell(complaint(MessageError(found, field="type")))
+        self._send(error_message(MessageError(found, field="type")))

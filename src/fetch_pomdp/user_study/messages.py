@@ -1,4 +1,4 @@
-"""What a page of a study may send, besides what its person says and shows to the robot."""
+"""What a participant's page may send, besides what its person says and shows to the robot."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from fetch_pomdp import checks
-from fetch_pomdp.adapters.web.protocol import TALK, Readers
+from fetch_pomdp.adapters.web.page_messages import TALK, Readers
 from fetch_pomdp.errors import MessageError
 
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """What was filled in at a stage."""
+    """The form of a stage, filled in."""
 
     stage: str
     values: Mapping[str, Any]
@@ -26,20 +26,20 @@ class Ready:
 
 @dataclass(frozen=True, slots=True)
 class Next:
-    """The end of a trial has been seen."""
+    """The person has seen the end of a trial."""
 
 
 @dataclass(frozen=True, slots=True)
 class GiveUp:
-    """The robot will never bring what is desired."""
+    """The person gives the trial up."""
 
 
 @dataclass(frozen=True, slots=True)
 class Withdraw:
-    """The person takes part no longer, and all that is kept of them goes."""
+    """The person withdraws; all that is kept of them is deleted."""
 
 
-Answer: TypeAlias = Reply | Ready | Next | GiveUp | Withdraw
+Command: TypeAlias = Reply | Ready | Next | GiveUp | Withdraw
 
 
 def _reply(data: Mapping[str, Any]) -> Reply:
@@ -48,11 +48,11 @@ def _reply(data: Mapping[str, Any]) -> Reply:
     return Reply(stage, checks.mapping(data["values"], "values", MessageError))
 
 
-def _bare(kind: Callable[[], Answer]) -> tuple[tuple[()], Callable[[Mapping[str, Any]], Answer]]:
+def _bare(kind: Callable[[], Command]) -> tuple[tuple[()], Callable[[Mapping[str, Any]], Command]]:
     return (), lambda _: kind()
 
 
-STUDY: Readers = {
+PARTICIPANT: Readers = {
     **TALK,
     "reply": (("stage", "values"), _reply),
     "ready": _bare(Ready),

@@ -1,128 +1,119 @@
-"""One participant before a page, led from stage to stage; each goes on where it was after a lost connection."""
+"""The session of one participant, from stage to stage; after a lost connection it goes on where it was."""
 
 from __future__ import annotations
 
 import logging
+import secrets
 import threading
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, Literal
 
-from fetch_pomdp.adapters.speech.espeak import Voice
-from fetch_pomdp.adapters.store.journal import SECOND
-from fetch_pomdp.adapters.store.participant import Agreement, Participant
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.adapters.web.conversation import Conversation
-from fetch_pomdp.adapters.web.ears import Hearing
+from fetch_pomdp.adapters.web.ears import Speech
 from fetch_pomdp.adapters.web.journal import name_of
-from fetch_pomdp.adapters.web.participation.answers import answered, consented, question_to_json
-from fetch_pomdp.adapters.web.participation.mailbox import LeftError, Mailbox, WithdrawnError
-from fetch_pomdp.adapters.web.participation.messages import STUDY, Answer, Next, Reply
-from fetch_pomdp.adapters.web.participation.programme import Programme, Question
-from fetch_pomdp.adapters.web.participation.rounds import Round, Sound
-from fetch_pomdp.adapters.web.protocol import read_message
-from fetch_pomdp.adapters.web.tell import BROKEN, Told, complaint
+from fetch_pomdp.adapters.web.page_messages import read_message
+from fetch_pomdp.adapters.web.server_messages import BROKEN, Send, error_message
 from fetch_pomdp.errors import InputError, StoreError
 from fetch_pomdp.files.header import Header
+from fetch_pomdp.user_study.config import UserStudy
+from fetch_pomdp.user_study.mailbox import LeftError, Mailbox, WithdrawnError
+from fetch_pomdp.user_study.messages import PARTICIPANT, Command, Next, Reply
+from fetch_pomdp.user_study.questionnaire import Question, answered, consented, question_to_json
+from fetch_pomdp.user_study.store.participants import Agreement, Participant
+from fetch_pomdp.user_study.store.store import Store
+from fetch_pomdp.user_study.store.trials import SECOND
+from fetch_pomdp.user_study.trial import Sound, TrialRunner
 
 logger = logging.getLogger(__name__)
 
 
-class Attendance:
-    """A Party: one participant, and one conversation after the other.
+class ParticipantSession:
+    """A PageSession: one participant, and one conversation after the other.
 
-    secret, person: of who comes back, None for somebody new, of whom nothing is kept before they agree. tell: takes
-    messages, from any thread, and returns soon.
+    secret: of the participant's page. person: None for somebody new, of whom nothing is kept before they agree.
+
+    Choice: a new page gets its secret with the consent text, before there is a participant. A place is taken by the
+    answer of a page that holds its secret already, so that no place is lost if the server dies right after.
     """
 
     def __init__(
-        self,
-        programme: Programme,
-        store: Store,
-        tell: Callable[[Told], None],
-        *,
-        secret: str | None,
-        person: Participant | None,
-        voice: Voice | None,
-        hearing: Hearing | None,
+        self, study: UserStudy, store: Store, send: Send, *, speech: Speech, returning: tuple[str, Participant] | None
     ) -> None:
-        self._programme, self._store, self._tell = programme, store, tell
-        self._secret, self._person = secret, person
-        self._voice, self._hearing = voice, hearing
-        self._mailbox = Mailbox(tell)
-        self._talk: Conversation | None = None
+        self._study, self._store, self._send, self._speech = study, store, send, speech
+        self._secret = secrets.token_urlsafe(24) if returning is None else returning[0]
+        self._person = None if returning is None else returning[1]
+        self.name = name_of(self._secret)
+        self._mailbox = Mailbox(send)
+        self._conversation: Conversation | None = None
         self._keeps_sound = False
-        self._thread = threading.Thread(target=self._run, name=f"attendance {self.name[:8]}", daemon=True)
+        self._ended: Callable[[], None] = lambda: None
+        self._thread = threading.Thread(target=self._run, name=f"participant {self.name[:8]}", daemon=True)
 
-    @property
-    def name(self) -> str:
-        """The name under which it is found when its person comes back."""
-        return f"newcomer-{id(self)}" if self._secret is None else name_of(self._secret)
-
-    def start(self) -> None:
-        """Begin, in a thread."""
+    def start(self, ended: Callable[[], None] = lambda: None) -> None:
+        """Start, in a thread, which calls `ended` at its end."""
+        self._ended = ended
         self._thread.start()
 
     def close(self) -> None:
         """End soon, from any thread; the person may come back."""
         self._mailbox.close()
 
-    def join(self, timeout: float) -> None:
-        """Wait until the thread has ended."""
-        self._thread.join(timeout)
+    def receive(self, message: str | bytes) -> None:
+        """Take what a page sent; what is said or shown outside an interaction is dropped.
 
-    def take(self, message: str | bytes) -> None:
-        """Take what a page sent. What is said or shown outside an interaction reaches nobody.
-
-        Raises InputError for what is no message.
+        Raises InputError if it is invalid.
         """
-        said = message if isinstance(message, bytes) else read_message(message, STUDY)
-        talk = self._talk
-        if isinstance(said, Answer):
-            self._mailbox.put(said)
-        elif talk is not None:
-            talk.heed(said)
-            if isinstance(said, bytes) and self._keeps_sound:
-                self._mailbox.put(Sound(talk.clock.now() - len(said) / SECOND, said))
+        read = message if isinstance(message, bytes) else read_message(message, PARTICIPANT)
+        conversation = self._conversation
+        if isinstance(read, Command):
+            self._mailbox.put(read)
+        elif conversation is not None:
+            conversation.handle(read)
+            if isinstance(read, bytes) and self._keeps_sound:
+                self._mailbox.put(Sound(conversation.clock.now() - len(read) / SECOND, read))
 
     def _run(self) -> None:
         try:
-            self._attend()
+            self._lead()
         except LeftError:
             logger.info("a participant left")
         except WithdrawnError:
             logger.info("a participant withdraws")
         except Exception as error:
-            self._broke(error)
-        if self._mailbox.withdrawn:
-            self._withdraw()
+            self._fail(error)
+        try:
+            if self._mailbox.withdrawn:
+                self._withdraw()
+        finally:
+            self._ended()
 
-    def _broke(self, error: Exception) -> None:
-        """Let the page come back: it is let go when it is told that its party is broken."""
-        logger.error("an attendance broke off", exc_info=error)
+    def _fail(self, error: Exception) -> None:
+        """Let the page come back: it is disconnected when it is told that its session is broken."""
+        logger.error("the session of a participant failed", exc_info=error)
         if not self._mailbox.withdrawn:
-            self._tell(complaint(error, BROKEN))
+            self._send(error_message(error, BROKEN))
 
     def _withdraw(self) -> None:
-        """Delete the person and tell them so, then remove what the rows have left behind, which may take long."""
+        """Delete the person and tell them, then remove what the rows have left behind, which may take long."""
         try:
-            person = self._store.returning(self._programme.name, self._secret or "")
+            person = self._store.returning(self._study.name, self._secret)
             if person is not None:
                 self._store.erase(person.code)
         except StoreError as error:
-            logger.exception("somebody who withdraws is not deleted: their page asks again when it comes back")
-            self._tell(complaint(error, BROKEN))
+            logger.exception(
+                "a participant who withdraws could not be deleted; their page asks again when it comes back"
+            )
+            self._send(error_message(error, BROKEN))
             return
-        self._person = self._secret = None
+        self._person = None
         self._show("withdrawn")
         try:
             self._store.scrub()
         except StoreError:
-            logger.exception(
-                "somebody who has withdrawn is deleted, but bytes may be left: forget anybody to try again"
-            )
+            logger.exception("a participant who withdrew is deleted, but bytes may be left; the next `forget` retries")
 
-    def _attend(self) -> None:
+    def _lead(self) -> None:
         person = self._person or self._enrolled()
         steps: dict[str, Callable[[Participant], None]] = {
             "instructions": self._instructions,
@@ -139,39 +130,39 @@ class Attendance:
         self._mailbox.expect()  # they may still withdraw
 
     def _show(self, stage: str, **fields: object) -> None:
-        title = dict(self._programme.title)
+        title = dict(self._study.title)
         known = {} if self._person is None else {"code": self._person.code, "resume": self._secret}
-        self._tell({"type": "stage", "stage": stage, "title": title, **known, **fields})
+        self._send({"type": "stage", "stage": stage, "title": title, **known, **fields})
 
     def _refreshed(self) -> Participant:
-        person = self._store.returning(self._programme.name, self._secret or "")
+        person = self._store.returning(self._study.name, self._secret)
         if person is None:
-            raise StoreError("found nobody, expected a participant: they were deleted meanwhile")
+            raise StoreError("the participant was deleted meanwhile")
         self._person = person
         return person
 
     def _filled(self, stage: str) -> Reply:
-        """Wait for what is filled in at a stage; what belongs to another, such as a second click, is passed over."""
+        """Wait for the form of a stage; one of another stage, such as after a second click, is ignored."""
         while True:
             reply: Reply = self._mailbox.expect(Reply)
             if reply.stage == stage:
                 return reply
 
     def _enrolled(self) -> Participant:
-        """Ask for consent; take in who agrees. Raises LeftError for who does not, and where there is no room."""
-        programme = self._programme
-        self._show("consent", text=dict(programme.consent), keep_sound=programme.keep_sound)
+        """Ask for consent, and enrol the person. Raises LeftError if they do not agree, or if all places are taken."""
+        study = self._study
+        self._show("consent", text=dict(study.consent), keep_sound=study.keep_sound, resume=self._secret)
         given, language = self._agreement()
         if not given["taking_part"]:
             self._show("declined")
             raise LeftError
-        given = {**given, "sound": given["sound"] and programme.keep_sound}
-        read = programme.consent.get(language, programme.consent["en"])
+        given = {**given, "sound": given["sound"] and study.keep_sound}
+        read = study.consent.get(language, study.consent["en"])
         try:
-            self._person, self._secret = self._store.enrol(
-                programme.name, programme.digest, programme.people,
+            self._person = self._store.enrol(
+                study.name, study.digest, study.people,
                 Agreement(language=language, given=given, text=read),
-                trials=lambda number: len(programme.trials(number)),
+                secret=self._secret, trials=lambda number: len(study.trials(number)),
             )  # fmt: skip
         except StoreError as error:
             if error.field != "people":
@@ -183,44 +174,44 @@ class Attendance:
     def _agreement(self) -> tuple[dict[str, bool], str]:
         while True:
             try:
-                return consented(self._filled("consent").values, languages=("en", "de"))
+                return consented(self._filled("consent").values)
             except InputError as error:
-                self._tell(complaint(error))
+                self._send(error_message(error))
 
     def _instructions(self, person: Participant) -> None:
-        programme = self._programme
-        counts = {"practice": len(programme.practice_trials(person.person)), "of": len(programme.trials(person.person))}
-        self._show("instructions", text=dict(programme.instructions), ears=self._hearing is not None, **counts)
+        study = self._study
+        counts = {"practice": len(study.practice_trials(person.person)), "of": len(study.trials(person.person))}
+        self._show("instructions", text=dict(study.instructions), ears=self._speech.hearing is not None, **counts)
         self._filled("instructions")
 
     def _practice(self, person: Participant) -> None:
-        self._rounds(person, "practice", person.practice_done, self._programme.practice_trials(person.person))
+        self._run_trials(person, "practice", person.practice_done, self._study.practice_trials(person.person))
 
     def _trials(self, person: Participant) -> None:
-        self._keeps_sound = bool(self._programme.keep_sound and person.consent.get("sound"))
-        self._rounds(person, "trial", person.trials_done, self._programme.trials(person.person))
+        self._keeps_sound = bool(self._study.keep_sound and person.consent.get("sound"))
+        self._run_trials(person, "trial", person.trials_done, self._study.trials(person.person))
         self._keeps_sound = False
 
-    def _rounds(
+    def _run_trials(
         self, person: Participant, part: Literal["practice", "trial"], done: int, headers: Sequence[Header]
     ) -> None:
         stage = {"type": "stage", "stage": "practice" if part == "practice" else "trials", "of": len(headers)}
-        known = {"title": dict(self._programme.title), "code": person.code, "resume": self._secret}
+        known = {"title": dict(self._study.title), "code": person.code, "resume": self._secret}
         for order in range(done, len(headers)):
             trial = self._store.trial(person.id, part, order, headers[order])
-            played = Round(
-                trial, self._mailbox, self._tell, voice=self._voice, hearing=self._hearing, began=self._began
+            runner = TrialRunner(
+                trial, self._mailbox, self._send, speech=self._speech, on_conversation=self._set_conversation
             )
-            played.play({**stage, **known, "order": order}, self._programme.countdown)
+            runner.run({**stage, **known, "order": order}, self._study.countdown)
             self._mailbox.expect(Next)
 
-    def _began(self, talk: Conversation | None) -> None:
-        self._talk = talk
+    def _set_conversation(self, conversation: Conversation | None) -> None:
+        self._conversation = conversation
 
     def _questions(self, person: Participant) -> None:
-        pages = sorted({question.page for question in self._programme.questions})
+        pages = sorted({question.page for question in self._study.questions})
         for number, page in enumerate(pages):
-            questions = [question for question in self._programme.questions if question.page == page]
+            questions = [question for question in self._study.questions if question.page == page]
             if all(question.id in person.answers for question in questions):
                 continue
             shown = [question_to_json(question) for question in questions]
@@ -233,4 +224,4 @@ class Attendance:
             try:
                 return answered(questions, self._filled("questions").values)
             except InputError as error:
-                self._tell(complaint(error))
+                self._send(error_message(error))

@@ -1,11 +1,11 @@
-"""One trial: what is desired, a countdown, and an interaction until the robot tells what it brings.
+"""One trial: the desired item, a countdown, and an interaction until the robot says what it brings.
 
 Choice: the robot's word ends a trial (Section IV-B: it "ended when the robot told the user which item it thought was
 desired"), so that it cannot be stopped any more and its time is that of the decision; the page shows the hand-over
 after it.
 
-Choice: who has waited GIVE_UP seconds may give a trial up, which counts as if the robot had never picked; people cannot
-be held before a robot that waits for ever.
+Choice: after GIVE_UP seconds the person may give a trial up, which counts as if the robot had never picked; nobody can
+be recorder waiting for a robot that waits for ever.
 """
 
 from __future__ import annotations
@@ -13,26 +13,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from fetch_pomdp.adapters.speech.espeak import Voice
-from fetch_pomdp.adapters.store.journal import TrialJournal
 from fetch_pomdp.adapters.web.conversation import Conversation
-from fetch_pomdp.adapters.web.ears import Hearing
+from fetch_pomdp.adapters.web.ears import Speech
 from fetch_pomdp.adapters.web.journal import Journal
-from fetch_pomdp.adapters.web.participation.keeping import NOTED, Keeping
-from fetch_pomdp.adapters.web.participation.mailbox import BrokenError, Mailbox
-from fetch_pomdp.adapters.web.participation.messages import GiveUp, Ready
+from fetch_pomdp.adapters.web.page_connection import FAREWELL
 from fetch_pomdp.adapters.web.robot import PageRobot
-from fetch_pomdp.adapters.web.tell import (
+from fetch_pomdp.adapters.web.server_messages import (
     BROKEN,
     HANDS_OVER,
-    Told,
-    complaint,
-    decided,
+    Send,
+    ServerMessage,
+    decided_message,
+    error_message,
     event_message,
     scene_to_json,
-    sensor_status,
+    status_message,
 )
-from fetch_pomdp.adapters.web.visit import FAREWELL
 from fetch_pomdp.core.action import Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Observed
@@ -43,27 +39,31 @@ from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.core.scene import Item
 from fetch_pomdp.errors import MessageError
+from fetch_pomdp.user_study.mailbox import BrokenError, Mailbox
+from fetch_pomdp.user_study.messages import GiveUp, Ready
+from fetch_pomdp.user_study.recorder import NOTED, TrialRecorder
+from fetch_pomdp.user_study.store.trials import StoredTrial
 
 GIVE_UP = 45.0  # s
 
 
 @dataclass(frozen=True, slots=True)
 class Over:
-    """The robot has told what it brings."""
+    """The robot has said what it brings."""
 
     picked: str | None
 
 
 @dataclass(frozen=True, slots=True)
 class Sound:
-    """A piece of sound to be kept; start: s, of the trial's clock."""
+    """A piece of sound to be recorded; start: s, of the trial's clock."""
 
     start: float
     pcm: bytes
 
 
-class TellingRobot(PageRobot):
-    """The robot of a study: it is done with a pick when it has told of it."""
+class AnnouncingRobot(PageRobot):
+    """The robot of a study: a pick is done when the robot has announced it."""
 
     def pick(self, item: Item) -> Outcome:  # noqa: ARG002
         """Say that it brings an item."""
@@ -71,114 +71,113 @@ class TellingRobot(PageRobot):
         return Outcome.DONE
 
 
-def outward(update: Update, agent: Agent) -> Told | None:
-    """Return what a participant may know of an update: what a body would show, and that the robot has heard."""
+def participant_view(update: Update, agent: Agent) -> ServerMessage | None:
+    """Return what a participant is told of an update: what they would see of a robot, and that it has heard."""
     if isinstance(update, Decided) and not isinstance(update.decision.action, Wait):
-        return decided(update, agent)
+        return decided_message(update, agent)
     if isinstance(update, Did) and not update.event.done:
         return event_message(update.event, agent)
     if isinstance(update, Heard) and update.event.words:
         return {"type": "heard", "t": update.event.time}
     if isinstance(update, SensorStatus) and update.name != MODEL:
-        return sensor_status(update)
+        return status_message(update)
     return {"type": "ended", "picked": update.picked} if isinstance(update, Ended) else None
 
 
-class Round:
-    """A trial before its person. began: is told the conversation when it begins, and None when it is over."""
+class TrialRunner:
+    """Runs one trial. on_conversation: gets the conversation when it begins, and None when it is over."""
 
     def __init__(
         self,
-        trial: TrialJournal,
+        trial: StoredTrial,
         mailbox: Mailbox,
-        tell: Callable[[Told], None],
+        send: Send,
         *,
-        voice: Voice | None,
-        hearing: Hearing | None,
-        began: Callable[[Conversation | None], None],
+        speech: Speech,
+        on_conversation: Callable[[Conversation | None], None],
     ) -> None:
-        self._trial, self._mailbox, self._tell, self._began = trial, mailbox, tell, began
-        self._voice, self._hearing = voice, hearing
+        self._trial, self._mailbox, self._send, self._on_conversation = trial, mailbox, send, on_conversation
+        self._speech = speech
 
-    def play(self, stage: Told, countdown: float) -> None:
-        """Play it, or go on with it where it was, and tell how it ended. stage: what the page is told of it.
+    def run(self, stage: ServerMessage, countdown: float) -> None:
+        """Run the trial, or go on with it where it was, and send how it ended. stage: what the page is told of it.
 
-        Raises what `Mailbox.expect` raises: BrokenError for a robot that cannot go on.
+        Raises as `Mailbox.expect`, BrokenError for a robot that cannot go on.
         """
         trial = self._trial
         agent = trial.header.agent()
         prepare(agent.planner, agent.problem)
         running = trial.clock is not None
-        self._tell({**stage, "desired": trial.header.target, "running": running, "give_up": GIVE_UP})
-        self._tell(self._welcome(running))
+        self._send({**stage, "desired": trial.header.target, "running": running, "give_up": GIVE_UP})
+        self._send(self._welcome(running))
         if not running:
             self._mailbox.expect(Ready)
-            self._tell({"type": "countdown", "seconds": countdown})
+            self._send({"type": "countdown", "seconds": countdown})
             self._mailbox.pause(countdown)
             trial.note_clock(0.0)
-        self._tell({"type": "ended", "picked": self._picked()})
+        self._send({"type": "ended", "picked": self._picked()})
 
     def _picked(self) -> str | None:
-        """Let person and robot interact; return what the robot brings, None if it was given up."""
+        """Let person and robot interact; return what the robot brings, None if the person gave up."""
         trial = self._trial
         journal = Journal("", trial.header, list(trial.events), trial, clock=trial.clock or 0.0)
-        talk = Conversation(
-            journal, self._told, view=outward, voice=self._voice, hearing=self._hearing, body=TellingRobot
+        conversation = Conversation(
+            journal, self._relay, view=participant_view, speech=self._speech, body=AnnouncingRobot
         )
-        kept = Keeping(trial, talk.clock)
-        self._began(talk)
-        self._tell({"type": "begin", "t": round(talk.clock.now(), 3)})
-        talk.start()
-        if journal.events:  # whoever waited for the robot when the connection was lost waits still
-            talk.wake()
+        recorder = TrialRecorder(trial, conversation.clock)
+        self._on_conversation(conversation)
+        self._send({"type": "begin", "t": round(conversation.clock.now(), 3)})
+        conversation.start()
+        if journal.events:  # who was waiting for the robot when the connection was lost still is
+            conversation.wake()
         try:
-            return self._until_over(talk, kept)
+            return self._until_over(conversation, recorder)
         finally:
-            left = talk.clock.now()
-            self._began(None)
-            talk.close()
-            talk.join(FAREWELL)
+            left = conversation.clock.now()
+            self._on_conversation(None)
+            conversation.close()
+            conversation.join(FAREWELL)
             trial.note_clock(left)
-            kept.flush()
+            recorder.flush()
 
-    def _until_over(self, talk: Conversation, kept: Keeping) -> str | None:
+    def _until_over(self, conversation: Conversation, recorder: TrialRecorder) -> str | None:
         while True:
             message = self._mailbox.expect(Over, GiveUp, Sound, within=NOTED)
-            kept.look()
+            recorder.note_clock()
             if isinstance(message, Over):
                 return message.picked
             if message is None:
                 continue
             if isinstance(message, Sound):
-                kept.sound(message.start, message.pcm)
-            elif (now := talk.clock.now()) >= GIVE_UP:
-                talk.close()
-                talk.join(FAREWELL)
+                recorder.add_sound(message.start, message.pcm)
+            elif (now := conversation.clock.now()) >= GIVE_UP:
+                conversation.close()
+                conversation.join(FAREWELL)
                 if not self._trial.finished:  # the time until then is that of the trial (study.trial.scored)
                     self._trial.write(Observed(Observation(), time=now))
                     self._trial.finish(given_up=True)
                 return None
             else:
-                expected = f"expected it from {GIVE_UP:g} s on"
-                self._tell(complaint(MessageError(f"found a trial given up after {now:.0f} s, {expected}")))
+                early = f"a trial can be given up after {GIVE_UP:g} s, not after {now:.0f} s"
+                self._send(error_message(MessageError(early)))
 
-    def _told(self, told: Told) -> None:
-        if told["type"] == "ended":
-            self._mailbox.post(Over(told["picked"]))
-        elif told.get("code") == BROKEN:
+    def _relay(self, message: ServerMessage) -> None:
+        if message["type"] == "ended":
+            self._mailbox.post(Over(message["picked"]))
+        elif message.get("code") == BROKEN:
             self._mailbox.post(BrokenError("the robot cannot go on"))
         else:
-            self._tell(told)
+            self._send(message)
 
-    def _welcome(self, running: bool) -> Told:
+    def _welcome(self, running: bool) -> ServerMessage:
         asked = self._asked()
-        ears = self._hearing is not None
+        ears = self._speech.hearing is not None
         return {"type": "welcome", "scene": scene_to_json(self._trial.header.scene), "asked": asked, "ears": ears} | {
             "insight": False, "belief": None, "past": [], "picked": None, "resumed": running,
         }  # fmt: skip
 
     def _asked(self) -> str | None:
-        """Return the item that the robot has asked about, if nothing was heard since."""
+        """Return the item of the robot's last question, if nothing was heard since."""
         for event in reversed(self._trial.events):
             if isinstance(event, Observed) and event.observation.words:
                 return None

@@ -1,25 +1,39 @@
-"""Pages and parties without a network, for what two of them do to each other."""
+"""Pages and sessions without a network, for what two of them do to each other."""
 
 from __future__ import annotations
 
 import asyncio
 import json
-import threading
+import time
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
-from fetch_pomdp.adapters.web.protocol import Hello
-from fetch_pomdp.adapters.web.tell import Told
+from fetch_pomdp.adapters.web.connection_manager import ConnectionManager
+from fetch_pomdp.adapters.web.page_connection import ConnectionLimits, PageConnection
+from fetch_pomdp.adapters.web.page_messages import Hello
+from fetch_pomdp.adapters.web.server_messages import Send, ServerMessage
 
+Work = Callable[[str | bytes], None]
 HELLO = {"type": "hello", "version": 1}
 
 
-class Socket:
+class FakeClock:
+    """A clock that shows what it is set to."""
+
+    time = 0.0
+
+    def __call__(self) -> float:
+        return self.time
+
+
+class FakeSocket:
     """A WebSocket of one page: what the page sends is put in, what it is told and how it was closed is kept."""
 
-    def __init__(self, **hello: Any) -> None:
+    def __init__(self, address: str = "192.0.2.1", **hello: Any) -> None:
         self.headers = {"host": "127.0.0.1:8000", "origin": "http://127.0.0.1:8000"}
-        self.told: list[Told] = []
+        self.client = SimpleNamespace(host=address)
+        self.told: list[ServerMessage] = []
         self.code: int | None = None
         self._sent: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
         self.send(json.dumps({**HELLO, **hello}))
@@ -46,48 +60,70 @@ class Socket:
         self.leave()
 
 
-class Guest:
-    """A Party that keeps what it takes. stay: what `take` does with each message."""
+async def serve(manager: ConnectionManager, page: FakeSocket) -> None:
+    """Let a manager serve a page."""
+    socket: Any = page
+    await manager.serve(socket)
 
-    def __init__(self, name: str, stay: Callable[[str | bytes], None] = lambda _: None) -> None:
-        self.name, self.taken, self._stay = name, list[str | bytes](), stay
-        self.joined = threading.Event()
 
-    def start(self) -> None:
-        pass
+def connected(page: FakeSocket, clock: Callable[[], float] = time.monotonic, **limits: float) -> PageConnection:
+    """Return the connection of a page."""
+    socket: Any = page
+    return PageConnection(socket, None, ConnectionLimits(**limits), clock)
 
-    def take(self, message: str | bytes) -> None:
-        self._stay(message)
+
+class FakeSession:
+    """A PageSession that keeps what it takes. work: what `receive` does with each message; ends: whether it does."""
+
+    def __init__(
+        self,
+        name: str,
+        work: Work = lambda _: None,
+        *,
+        ends: Callable[[], bool] = lambda: True,
+    ) -> None:
+        self.name, self.taken, self._work, self._ends = name, list[str | bytes](), work, ends
+        self.ended: Callable[[], None] = lambda: None
+
+    def start(self, ended: Callable[[], None]) -> None:
+        self.ended = ended
+
+    def receive(self, message: str | bytes) -> None:
+        self._work(message)
         self.taken.append(message)
 
     def close(self) -> None:
-        pass
-
-    def join(self, timeout: float) -> None:  # noqa: ARG002
-        self.joined.set()
+        if self._ends():
+            self.ended()
 
 
-class Desk:
-    """A Reception of guests, who are called by what they come back with. meet: what is done before there is one."""
+class FakeOpener:
+    """A SessionOpener whose sessions are called by what pages resume. meet: what is done before there is one."""
 
-    def __init__(self, meet: Callable[[Hello], None] = lambda _: None) -> None:
-        self._meet = meet
-        self.guests: list[Guest] = []
+    def __init__(
+        self,
+        meet: Callable[[Hello], None] = lambda _: None,
+        *,
+        work: Work = lambda _: None,
+        ends: Callable[[], bool] = lambda: True,
+    ) -> None:
+        self._meet, self._work, self._ends = meet, work, ends
+        self.sessions: list[FakeSession] = []
 
-    def name(self, hello: Hello) -> str | None:
+    def session_name(self, hello: Hello) -> str | None:
         return hello.resume
 
-    def returning(self, hello: Hello, tell: Callable[[Told], None]) -> Guest | None:
-        return self._guest(hello, str(hello.resume), tell)
+    def resume(self, hello: Hello, send: Send) -> FakeSession | None:
+        return self._session(hello, str(hello.resume), send)
 
-    def newcomer(self, hello: Hello, tell: Callable[[Told], None]) -> Guest:
-        return self._guest(hello, f"new {len(self.guests)}", tell)
+    def new(self, hello: Hello, send: Send) -> FakeSession:
+        return self._session(hello, f"new {len(self.sessions)}", send)
 
-    def get_ready(self) -> None:
+    def warm_up(self) -> None:
         pass
 
-    def _guest(self, hello: Hello, name: str, tell: Callable[[Told], None]) -> Guest:
+    def _session(self, hello: Hello, name: str, send: Send) -> FakeSession:
         self._meet(hello)
-        self.guests.append(Guest(name))
-        tell({"type": "welcome"})
-        return self.guests[-1]
+        self.sessions.append(FakeSession(name, self._work, ends=self._ends))
+        send({"type": "welcome"})
+        return self.sessions[-1]

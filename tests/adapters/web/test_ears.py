@@ -10,7 +10,7 @@ import pytest
 
 from fetch_pomdp.adapters.web import ears as module
 from fetch_pomdp.adapters.web.ears import AGAIN, ECHO, MOST_EARLY, Ears
-from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
+from fetch_pomdp.adapters.web.page_messages import LARGEST_MESSAGE
 from fetch_pomdp.core.live import Inbox, SensorStatus, State
 from fetch_pomdp.errors import AudioError, MessageError
 

@@ -7,11 +7,10 @@ import threading
 
 import pytest
 
-from fetch_pomdp.adapters.web.outbox import Outbox
-from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
-from fetch_pomdp.adapters.web.visit import LEAST_SOUND, POLICY, Visit
+from fetch_pomdp.adapters.web.page_connection import LEAST_SOUND, POLICY
+from fetch_pomdp.adapters.web.page_messages import LARGEST_MESSAGE
 from fetch_pomdp.errors import MessageError
-from tests.adapters.web.people import Guest, Socket
+from tests.adapters.web.fakes import FakeClock, FakeSession, FakeSocket, connected
 
 
 def test_nobody_waits_for_what_another_page_sends() -> None:
@@ -22,18 +21,18 @@ def test_nobody_waits_for_what_another_page_sends() -> None:
         waited.append(not go_on.wait(5))
 
     async def come() -> list[str | bytes]:
-        socket, guest = Socket(), Guest("slow", slow)
-        visit = Visit(socket, guest, Outbox(asyncio.get_running_loop()), messages=40, sound=64_000)
-        going_on = asyncio.create_task(visit.last())
+        socket, session = FakeSocket(), FakeSession("slow", slow)
+        connection = connected(socket)
+        going_on = asyncio.create_task(connection.run(session))
         for text in ("one", "two"):
             socket.send(text)
         await asyncio.to_thread(busy.wait, 10)
         go_on.set()  # by the loop itself, which is not the one that waits
-        while len(guest.taken) < 3:
+        while len(session.taken) < 3:
             await asyncio.sleep(0.01)
         socket.leave()
         await going_on
-        return guest.taken[1:]
+        return session.taken[1:]
 
     assert asyncio.run(come()) == ["one", "two"]
     assert waited == [False] * 3
@@ -41,30 +40,30 @@ def test_nobody_waits_for_what_another_page_sends() -> None:
 
 @pytest.mark.parametrize("piece", [b"", bytes(2)])
 def test_sound_in_many_small_pieces_is_too_much(piece: bytes) -> None:
-    async def come() -> tuple[Socket, Guest]:
-        socket, guest = Socket(), Guest("")
-        visit = Visit(socket, guest, Outbox(asyncio.get_running_loop()), messages=40, sound=0)
+    async def come() -> tuple[FakeSocket, FakeSession]:
+        socket, session = FakeSocket(), FakeSession("")
+        connection = connected(socket, FakeClock(), sound=0)
         for _ in range(1000):
             socket.send(piece)
-        await visit.last()
-        return socket, guest
+        await connection.run(session)
+        return socket, session
 
-    socket, guest = asyncio.run(come())
+    socket, session = asyncio.run(come())
     assert socket.code == POLICY
-    assert len(guest.taken) == 1 + LARGEST_MESSAGE // LEAST_SOUND  # the hello is one
+    assert len(session.taken) == 1 + LARGEST_MESSAGE // LEAST_SOUND  # the hello is one
 
 
 def test_a_microphone_s_sound_is_not() -> None:
     second = 25 * [bytes(1280)]
 
-    async def come() -> Guest:
-        socket, guest = Socket(), Guest("")
-        visit = Visit(socket, guest, Outbox(asyncio.get_running_loop()), messages=40, sound=32_000)
+    async def come() -> FakeSession:
+        socket, session = FakeSocket(), FakeSession("")
+        connection = connected(socket, sound=32_000)
         for piece in second:
             socket.send(piece)
         socket.leave()
-        await visit.last()
-        return guest
+        await connection.run(session)
+        return session
 
     assert asyncio.run(come()).taken[1:] == second
 
@@ -73,10 +72,10 @@ def test_what_is_no_message_is_told_to_the_page() -> None:
     def refuse(message: str | bytes) -> None:
         raise MessageError(f"found {message!r}, expected another")
 
-    async def come() -> Socket:
-        socket = Socket()
-        visit = Visit(socket, Guest("", refuse), Outbox(asyncio.get_running_loop()), messages=40, sound=64_000)
-        going_on = asyncio.create_task(visit.last())
+    async def come() -> FakeSocket:
+        socket = FakeSocket()
+        connection, session = connected(socket), FakeSession("", refuse)
+        going_on = asyncio.create_task(connection.run(session))
         while not socket.told:
             await asyncio.sleep(0.01)
         socket.leave()

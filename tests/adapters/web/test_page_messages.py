@@ -9,17 +9,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fetch_pomdp.adapters.web.protocol import (
+from fetch_pomdp.adapters.web.page_messages import (
     LARGEST_MESSAGE,
     MOST_ITEMS,
     Hello,
     Microphone,
+    PageMessage,
     Pointed,
     Typed,
-    message_from_text,
+    header_of,
+    read_page_message,
 )
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
+from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.lively import LIVE_MODEL
 
 TABLE = """
@@ -31,16 +34,33 @@ vocabulary = ["mug"]
 """
 
 
-def hello(**fields: Any) -> Hello:
-    message = message_from_text(json.dumps({"type": "hello", "version": 1, **fields}))
-    assert isinstance(message, Hello)
-    return message
+def read(text: str) -> PageMessage | Header:
+    """A message; of a hello the interaction that it asks for."""
+    message = read_page_message(text)
+    return header_of(message) if isinstance(message, Hello) else message
+
+
+def hello(**fields: Any) -> Header:
+    """The interaction that a hello asks for."""
+    header = read(json.dumps({"type": "hello", "version": 1, **fields}))
+    assert isinstance(header, Header)
+    return header
 
 
 def test_hello_has_defaults() -> None:
-    message = hello()
-    assert (message.scene_name, message.planner, message.seed, message.resume) == ("ambiguous", "fitted", 0, None)
-    assert message.scene.items == Scene.load("ambiguous").items
+    header, message = hello(), read_page_message('{"type": "hello", "version": 1}')
+    assert (header.scene_name, header.planner, header.seed) == ("ambiguous", "fitted", 0)
+    assert header.scene.items == Scene.load("ambiguous").items
+    assert message == Hello(choices={}, resume=None, participant=None, token=None)
+
+
+def test_a_hello_is_read_without_its_table() -> None:
+    """Of a page that may not come in, nothing that is work is done."""
+    message = read_page_message(json.dumps({"type": "hello", "version": 1, "token": "guess", "scene": {"toml": "["}}))
+    assert isinstance(message, Hello)
+    assert message.token == "guess"
+    with pytest.raises(InputError, match="broken TOML"):
+        header_of(message)
 
 
 def test_a_page_s_tables_expect_live_people_unless_their_file_does_not() -> None:
@@ -58,9 +78,9 @@ def test_a_calibrated_camera_sets_the_spread_of_pointing_and_nothing_else(scene:
 
 
 def test_the_other_messages() -> None:
-    assert message_from_text('{"type": "typed", "text": "the cup"}') == Typed("the cup")
-    assert message_from_text('{"type": "microphone", "on": true}') == Microphone(True)
-    pointed = message_from_text('{"type": "ray", "head": [0, 0, 1.6], "wrist": [0, 0.5, 1.4]}')
+    assert read_page_message('{"type": "typed", "text": "the cup"}') == Typed("the cup")
+    assert read_page_message('{"type": "microphone", "on": true}') == Microphone(True)
+    pointed = read_page_message('{"type": "ray", "head": [0, 0, 1.6], "wrist": [0, 0.5, 1.4]}')
     assert pointed == Pointed((0.0, 0.0, 1.6), (0.0, 0.5, 1.4))
 
 
@@ -96,7 +116,7 @@ def test_the_other_messages() -> None:
 )
 def test_what_is_no_message_is_refused_with_its_field(text: str, field: str) -> None:
     with pytest.raises(InputError) as raised:
-        message_from_text(text)
+        read(text)
     assert raised.value.field == field
 
 
@@ -112,7 +132,7 @@ def test_a_broken_table_is_answered_with_its_line() -> None:
 
 def test_a_message_that_is_too_large_is_not_read() -> None:
     with pytest.raises(InputError, match=str(LARGEST_MESSAGE)):
-        message_from_text('{"type": "typed", "text": "' + " " * LARGEST_MESSAGE + '"}')
+        read_page_message('{"type": "typed", "text": "' + " " * LARGEST_MESSAGE + '"}')
 
 
 VALUES = st.recursive(
@@ -130,7 +150,7 @@ def test_nothing_but_a_complaint_comes_of_nonsense(kind: str, fields: dict[str, 
     for text in (json.dumps({**fields, "type": kind}), json.dumps(fields)):
         complaint = ""
         try:
-            message_from_text(text)
+            read(text)
         except InputError as error:
             complaint = str(error)
         assert "\n" not in complaint

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from fetch_pomdp.adapters.store.store import Store
-from tests.adapters.store.made import BOTH
+from fetch_pomdp.user_study.store.store import Store
+from tests.user_study.store.made import BOTH
 
 VARIABLE = "FETCH_POMDP_TEST_DATABASE"
 

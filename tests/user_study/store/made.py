@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import secrets
+
 import pytest
 
-from fetch_pomdp.adapters.store.participant import Agreement, Participant
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.action import Pick, Wait
 from fetch_pomdp.core.events import Acted
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.header import Header
+from fetch_pomdp.user_study.store.participants import Agreement, Participant
+from fetch_pomdp.user_study.store.store import Store
 
 BOTH = ["sqlite", pytest.param("postgres", marks=pytest.mark.postgres)]
 SCENE = Scene.load("ambiguous")
@@ -27,7 +29,8 @@ AGREED = Agreement(language="en", given={"taking_part": True, "sound": True}, te
 
 
 def enrolled(store: Store, study: str = "pilot", people: int = 4, digest: str = "d1") -> tuple[Participant, str]:
-    return store.enrol(study, digest, people, AGREED, trials=lambda person: 6 + person)
+    secret = secrets.token_urlsafe(24)
+    return store.enrol(study, digest, people, AGREED, secret=secret, trials=lambda person: 6 + person), secret
 
 
 def joined(store: Store, study: str = "pilot") -> Participant:

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
-from fetch_pomdp.adapters.store import database
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.errors import StoreError
-from tests.adapters.store.made import PICKED, WAITED, header, joined
+from fetch_pomdp.user_study.store import database
+from fetch_pomdp.user_study.store.store import Store
+from tests.user_study.store.made import PICKED, WAITED, header, joined
 
 SECRET = "s3cr3t-w0rd"
 
@@ -28,10 +28,10 @@ def complaint(url: str) -> str:
 @pytest.mark.parametrize(
     ("url", "found"),
     [
-        ("participants.db", "--database: found no database's URL, expected sqlite:///FILE or postgresql://"),
-        (f"postgresql//u:{SECRET}@host/d", "--database: found no database's URL"),
-        (f"postgresql://u:{SECRET}@host:port/d", "--database: found no database's URL"),
-        ("", "--database: found no database's URL"),
+        ("participants.db", "--database: invalid URL, expected sqlite:///FILE or postgresql://"),
+        (f"postgresql//u:{SECRET}@host/d", "--database: invalid URL"),
+        (f"postgresql://u:{SECRET}@host:port/d", "--database: invalid URL"),
+        ("", "--database: invalid URL"),
         (f"mysql://u:{SECRET}@host/d", "--database: found 'mysql', expected sqlite:///FILE or postgresql://"),
         ("sqlite://", "--database: found a database in memory"),
         ("sqlite:///:memory:", "--database: found a database in memory"),
@@ -85,7 +85,7 @@ def test_a_file_is_nobody_elses_to_read(tmp_path: Path) -> None:
 
 
 def test_a_missing_file_is_not_made_where_one_is_expected(tmp_path: Path) -> None:
-    with pytest.raises(StoreError, match=r"p.db: found no such file, expected a database of participants"):
+    with pytest.raises(StoreError, match=r"p.db: no such file, expected a database of participants"):
         Store.existing(f"sqlite:///{tmp_path / 'p.db'}")
     assert list(tmp_path.iterdir()) == []
 

@@ -12,18 +12,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fetch_pomdp.adapters.store import journal
-from fetch_pomdp.adapters.store.exporting import Exported
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.events import Event, Observed
 from fetch_pomdp.errors import StoreError
 from fetch_pomdp.files.checking import checked
 from fetch_pomdp.files.recordings import read_recording
 from fetch_pomdp.files.scanning import ends
-from fetch_pomdp.study.from_logs import trials_of
 from fetch_pomdp.study.table import from_frame, read_table
-from tests.adapters.store.made import PICKED, WAITED, header, joined
+from fetch_pomdp.user_study.store import trials
+from fetch_pomdp.user_study.store.exporting import Exported
+from fetch_pomdp.user_study.store.store import Store
 from tests.files.test_recordings import events as any_event
+from tests.user_study.store.made import PICKED, WAITED, header, joined
 
 
 def rows(path: Path) -> list[dict[str, str]]:
@@ -56,7 +55,7 @@ def test_what_is_written_is_what_is_exported(trials: list[list[Event]]) -> None:
                 trial.write(event)
             assert store.trial(someone.id, "trial", order, header(0, order)).events == tuple(happened)
             trial.finish(given_up=not trial.finished)
-        store.export(folder / "out", scored=trials_of)
+        store.export(folder / "out")
         store.close()
         for order, happened in enumerate(trials):
             recording = read_recording(folder / "out" / "logs" / f"0000-{order:03}.jsonl")
@@ -91,7 +90,7 @@ def studied(store: Store) -> Store:
 
 def test_an_export_holds_the_study_and_nothing_of_who_withdrew(studied: Store, tmp_path: Path) -> None:
     folder = tmp_path / "deep" / "out"
-    assert studied.export(folder, scored=trials_of) == Exported("pilot", 1, trials=3, unfinished=1, practice=1)
+    assert studied.export(folder) == Exported("pilot", 1, trials=3, unfinished=1, practice=1)
     assert sorted(str(path.relative_to(folder)) for path in folder.rglob("*.*")) == [
         "answers.csv", "conditions.csv", "logs/0000-000.jsonl", "logs/0000-001.jsonl", "logs/0000-002.jsonl",
         "participants.csv", "practice/0000-000.jsonl", "trials.csv", "unfinished/0000-003.jsonl",
@@ -119,7 +118,7 @@ def test_an_export_holds_the_study_and_nothing_of_who_withdrew(studied: Store, t
 
 
 def test_the_folder_is_read_as_the_table_of_a_study(studied: Store, tmp_path: Path) -> None:
-    studied.export(tmp_path / "out", scored=trials_of)
+    studied.export(tmp_path / "out")
     from_logs, from_csv = read_table(tmp_path / "out"), read_table(tmp_path / "out" / "trials.csv")
     assert list(from_frame(from_logs)) == list(from_frame(from_csv))
     assert len(from_logs) == 3
@@ -127,22 +126,22 @@ def test_the_folder_is_read_as_the_table_of_a_study(studied: Store, tmp_path: Pa
 
 def test_a_folder_that_is_there_is_left_alone(studied: Store, tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
-    with pytest.raises(StoreError, match="out: found something there already, expected a new folder"):
-        studied.export(tmp_path / "out", scored=trials_of)
+    with pytest.raises(StoreError, match="out: exists already, expected a new folder"):
+        studied.export(tmp_path / "out")
     (tmp_path / "file").touch()
     with pytest.raises(StoreError, match="cannot be written: "):
-        studied.export(tmp_path / "file" / "out", scored=trials_of)
+        studied.export(tmp_path / "file" / "out")
 
 
 def test_one_study_of_several_must_be_named(store: Store, tmp_path: Path) -> None:
-    with pytest.raises(StoreError, match="study: found no study"):
-        store.export(tmp_path / "out", scored=trials_of)
+    with pytest.raises(StoreError, match="study: the database has no study yet"):
+        store.export(tmp_path / "out")
     joined(store, "a"), joined(store, "b")
-    with pytest.raises(StoreError, match="study: found a, b, expected the name of one"):
-        store.export(tmp_path / "out", scored=trials_of)
+    with pytest.raises(StoreError, match="study: found a, b; say which one"):
+        store.export(tmp_path / "out")
     with pytest.raises(StoreError, match="pilot: unknown study, expected one of a, b"):
-        store.export(tmp_path / "out", "pilot", scored=trials_of)
-    assert store.export(tmp_path / "out", "b", scored=trials_of).study == "b"
+        store.export(tmp_path / "out", "pilot")
+    assert store.export(tmp_path / "out", "b").study == "b"
     assert rows(tmp_path / "out" / "answers.csv") == []
     assert not (tmp_path / "out" / "trials.csv").exists()
 
@@ -157,7 +156,7 @@ def test_sound_is_on_the_clock_of_its_trial(store: Store, tmp_path: Path) -> Non
     again.keep_sound(3.0, half)
     again.write(PICKED)
     store.trial(someone.id, "trial", 1, header(0, 1)).write(PICKED)
-    store.export(tmp_path / "out", scored=trials_of)
+    store.export(tmp_path / "out")
     (path,) = (tmp_path / "out" / "sound").rglob("*.wav")
     assert path.name == "0000-000.wav"
     with wave.open(str(path)) as sound:
@@ -171,7 +170,7 @@ def test_sound_is_on_the_clock_of_its_trial(store: Store, tmp_path: Path) -> Non
 
 
 def test_no_more_sound_of_a_trial_is_kept_than_ten_minutes(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(journal, "MOST_SOUND", 3)
+    monkeypatch.setattr(trials, "MOST_SOUND", 3)
     someone, second = joined(store), bytes(32_000)
     for start in (0.0, 1.0):
         store.trial(someone.id, "trial", 0, header(0, 0)).keep_sound(start, second)

@@ -9,14 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from fetch_pomdp.adapters.store.journal import TrialJournal
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.action import Wait
 from fetch_pomdp.core.events import Observed
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import StoreError
-from tests.adapters.store.made import PICKED, WAITED, enrolled, header, joined
+from fetch_pomdp.user_study.store.store import Store
+from fetch_pomdp.user_study.store.trials import StoredTrial
+from tests.user_study.store.made import PICKED, WAITED, enrolled, header, joined
 
 MARK = "zanzibar"
 
@@ -41,7 +41,7 @@ def test_all_rows_of_a_person_go_and_nobody_elses(store: Store) -> None:
     assert store.returning("pilot", secret) is None
     assert [one.code for one in store.progress()] == [kept]
     assert store.forget(kept).rows["events"] == 168
-    with pytest.raises(StoreError, match="code: found nobody with it, expected the code of somebody who takes part"):
+    with pytest.raises(StoreError, match="code: no participant has this code"):
         store.forget(gone)
 
 
@@ -92,7 +92,7 @@ def test_deleting_and_writing_at_once_never_wait_for_each_other(store: Store) ->
         trial = store.trial(someone.id, "trial", 0, header(0, 0))
         ended: list[StoreError] = []
 
-        def write(trial: TrialJournal = trial, ended: list[StoreError] = ended) -> None:
+        def write(trial: StoredTrial = trial, ended: list[StoreError] = ended) -> None:
             while not ended:
                 try:
                     trial.write(WAITED)

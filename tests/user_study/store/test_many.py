@@ -9,27 +9,27 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.action import Wait
 from fetch_pomdp.core.events import Acted
-from tests.adapters.store.made import enrolled, header
+from fetch_pomdp.user_study.store.store import Store
+from tests.user_study.store.made import enrolled, header
 
 ROOT = Path(__file__).parents[3]
 ENROL = """
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from fetch_pomdp.adapters.store.store import Store
-from tests.adapters.store.made import AGREED
+from fetch_pomdp.user_study.store.store import Store
+from tests.user_study.store.made import enrolled
 store = Store.open(sys.argv[1])
 def come(_):
-    return store.enrol("pilot", "d1", 1000, AGREED, trials=lambda person: 1)[0].person
+    return enrolled(store, people=1000)[0].person
 with ThreadPoolExecutor(20) as crowd:
     print(*crowd.map(come, range(40)))
 """
 WRITE = """
 import itertools, sys
-from fetch_pomdp.adapters.store.store import Store
-from tests.adapters.store.made import WAITED, enrolled, header
+from fetch_pomdp.user_study.store.store import Store
+from tests.user_study.store.made import WAITED, enrolled, header
 store = Store.open(sys.argv[1])
 someone, secret = enrolled(store)
 trial = store.trial(someone.id, "trial", 0, header(0, 0))

@@ -11,14 +11,13 @@ import alembic.migration
 import pytest
 import sqlalchemy as sa
 
-from fetch_pomdp.adapters.store.database import Database, _engine, _url
-from fetch_pomdp.adapters.store.revisions import migrate
-from fetch_pomdp.adapters.store.schema import schema
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.errors import StoreError
 from fetch_pomdp.files.events import event_to_json
 from fetch_pomdp.files.header import header_to_json
-from tests.adapters.store.made import PICKED, SCENE, WAITED, header
+from fetch_pomdp.user_study.store.database import Database, _engine, _url, migrate
+from fetch_pomdp.user_study.store.schema import METADATA
+from fetch_pomdp.user_study.store.store import Store
+from tests.user_study.store.made import PICKED, SCENE, WAITED, header
 
 
 @pytest.fixture
@@ -32,7 +31,7 @@ def database(url: str) -> Any:
 def differences(database: Database) -> list[Any]:
     with database.writing() as connection:
         context = alembic.migration.MigrationContext.configure(connection, opts={"compare_type": True})
-        return list(alembic.autogenerate.compare_metadata(context, schema().metadata))
+        return list(alembic.autogenerate.compare_metadata(context, METADATA))
 
 
 def test_the_revisions_make_the_tables_of_the_schema(database: Database) -> None:
@@ -40,7 +39,7 @@ def test_the_revisions_make_the_tables_of_the_schema(database: Database) -> None
         migrate(connection)
     assert differences(database) == []
     with database.writing() as connection:
-        names = {name: sa.inspect(connection).get_unique_constraints(name) for name in schema().metadata.tables}
+        names = {name: sa.inspect(connection).get_unique_constraints(name) for name in METADATA.tables}
         connection.exec_driver_sql("ALTER TABLE answers ADD COLUMN more TEXT")
     assert {one["name"] for one in names["participants"]} == {
         "participants_person", "participants_secret", "participants_code",

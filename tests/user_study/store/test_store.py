@@ -9,13 +9,13 @@ from datetime import UTC, datetime
 
 import pytest
 
-from fetch_pomdp.adapters.store.participant import LETTERS, code_of
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.events import Acted
 from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.errors import StoreError
-from tests.adapters.store.made import AGREED, PICKED, WAITED, enrolled, header, joined
+from fetch_pomdp.user_study.store.participants import LETTERS, code_of
+from fetch_pomdp.user_study.store.store import Store
+from tests.user_study.store.made import AGREED, PICKED, WAITED, enrolled, header, joined
 
 
 def test_numbers_are_the_lowest_free_ones(store: Store) -> None:
@@ -24,14 +24,14 @@ def test_numbers_are_the_lowest_free_ones(store: Store) -> None:
     store.forget(people[1].code)
     assert joined(store).person == 1
     assert joined(store).person == 3
-    with pytest.raises(StoreError, match="people: found all 4 people of 'pilot' there, expected a free place"):
+    with pytest.raises(StoreError, match="people: all 4 places of 'pilot' are taken"):
         joined(store)
     assert joined(store, "another").person == 0
 
 
 def test_a_study_that_has_changed_is_another(store: Store) -> None:
     joined(store)
-    with pytest.raises(StoreError, match=r"study: found 'pilot' there with other contents \(d1, not d2\)"):
+    with pytest.raises(StoreError, match=r"study: 'pilot' was begun with other contents \(d1, not d2\)"):
         enrolled(store, digest="d2")
 
 
@@ -93,7 +93,7 @@ def test_what_somebody_has_done_comes_back(store: Store) -> None:
 @pytest.mark.parametrize("value", [float("nan"), object(), "\ud800", {1, 2}])
 def test_an_answer_is_json(store: Store, value: object) -> None:
     someone, secret = enrolled(store)
-    with pytest.raises(StoreError, match="ease: found what is no JSON"):
+    with pytest.raises(StoreError, match="ease: cannot be kept as JSON"):
         store.answer(someone.id, "ease", value)
     assert store.returning("pilot", secret) == someone
 
@@ -101,7 +101,7 @@ def test_an_answer_is_json(store: Store, value: object) -> None:
 def test_stages_are_known_and_people_are_there(store: Store) -> None:
     with pytest.raises(StoreError, match="stage: found 'lunch', expected one of instructions, practice"):
         store.advance(joined(store).id, "lunch")
-    with pytest.raises(StoreError, match="participant: found none, expected somebody who takes part"):
+    with pytest.raises(StoreError, match="participant: the participant was deleted"):
         store.advance(999, "trials")
     with pytest.raises(StoreError, match="contradicts what is there"):
         store.trial(999, "trial", 0, header(0, 0))

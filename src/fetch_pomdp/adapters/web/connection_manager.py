@@ -1,152 +1,164 @@
-"""Everybody who is before a page: each has a party of their own, and none hears of another."""
+"""The pages that are connected: each has a session of its own, and none hears of another.
+
+Choice: when all seats are taken, a newcomer gets the seat of a page that is idle: one that has sent nothing valid since
+it came, for IDLE_NEW seconds, or one that has sent nothing valid for IDLE seconds; those that never sent anything
+first, then the longest silent. Its person loses nothing: the page comes back when there is a seat.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import logging
-import secrets
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Protocol
-from weakref import WeakValueDictionary
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
 
-from fetch_pomdp.adapters.web.gate import Gate
-from fetch_pomdp.adapters.web.outbox import Outbox
-from fetch_pomdp.adapters.web.protocol import Hello, message_from_text
-from fetch_pomdp.adapters.web.tell import Told, complaint
-from fetch_pomdp.adapters.web.visit import POLICY, TRY_LATER, GoneError, Party, Visit, close, received, send
+from fetch_pomdp.adapters.web.access import AccessRules, TokenCheck, TooManyGuessesError
+from fetch_pomdp.adapters.web.page_connection import (
+    POLICY,
+    TAKEN_OVER,
+    TRY_LATER,
+    ConnectionLimits,
+    GoneError,
+    PageConnection,
+    PageSession,
+    close,
+    received,
+    send,
+)
+from fetch_pomdp.adapters.web.page_messages import Hello, read_page_message
+from fetch_pomdp.adapters.web.server_messages import Send, error_message
 from fetch_pomdp.errors import EventError, FetchPomdpError, MessageError, StoreError
+
+if TYPE_CHECKING:
+    from starlette.websockets import WebSocket
 
 logger = logging.getLogger(__name__)
 
 GREETING = 10.0  # s a page may take to say hello
-PENALTY = 1.0  # s a wrong token costs, so that nobody guesses often
+IDLE_NEW, IDLE = 60.0, 600.0  # s
 
 
 class FullError(MessageError):
     """All seats are taken for now."""
 
 
-# What is no fault of the page's: it may come back by itself.
-FOR_NOW = (FullError, TimeoutError, EventError, StoreError)
+# No fault of the page: it may come back by itself.
+TEMPORARY = (FullError, TooManyGuessesError, TimeoutError, EventError, StoreError)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Config:
-    """How a server serves. token: what a page must know, None on loopback; data: a folder for the journals.
+class ServerConfig:
+    """How a server serves. token: what a page must know, None on loopback.
 
     scene: the table that pages begin with, as they ask for it: a name or {"toml": "..."}.
     """
 
     scene: str | Mapping[str, str] = "ambiguous"
     token: str | None = None
-    data: Path | None = None
-    insight: bool = True  # whether a person may see what the robot believes and why it acts
     most_people: int = 64  # at once
-    messages: float = 40.0  # a second, of one page; twice as many at once
-    sound: float = 64_000.0  # bytes a second, of one page: twice what a microphone sends (visit.LEAST_SOUND)
+    limits: ConnectionLimits = field(default_factory=ConnectionLimits)
 
 
-class Reception(Protocol):
-    """Gives each page its party, which tells it all by `tell`, from any thread."""
+class SessionOpener(Protocol):
+    """Opens the session of each page, in a thread of that page; `send` takes messages for it, from any thread."""
 
-    def name(self, hello: Hello) -> str | None:
-        """Return the name of the party that a page comes back to, if it says that it does."""
+    def session_name(self, hello: Hello) -> str | None:
+        """Return the name of the session that a page comes back to, None for a new page."""
         ...
 
-    def returning(self, hello: Hello, tell: Callable[[Told], None]) -> Party | None:
-        """Return the party that a page comes back to, None if there is none."""
+    def resume(self, hello: Hello, send: Send) -> PageSession | None:
+        """Return the session that a page comes back to, None if there is none."""
         ...
 
-    def newcomer(self, hello: Hello, tell: Callable[[Told], None]) -> Party:
-        """Return a party for somebody new."""
+    def new(self, hello: Hello, send: Send) -> PageSession:
+        """Return a new session."""
         ...
 
-    def get_ready(self) -> None:
-        """Do what takes long before the first person comes."""
+    def warm_up(self) -> None:
+        """Do what takes long before the first page comes."""
         ...
 
 
-class Hall:
+class ConnectionManager:
     """Lets pages in and keeps them apart."""
 
-    def __init__(self, config: Config, reception: Reception) -> None:
-        self._config, self._reception = config, reception
-        self.gate = Gate(config.token)
-        self._visits: list[Visit] = []
-        self._arriving = 0  # pages that have a seat, and no visit yet
-        # One at a time, of those who come back to the same party: two pages that lost a server come back at once.
-        self._doors: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
+    def __init__(
+        self, config: ServerConfig, opener: SessionOpener, *, now: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._config, self._opener, self._now = config, opener, now
+        self.rules = AccessRules(config.token is not None)
+        self._tokens = TokenCheck(config.token, now)
+        self._connections: list[PageConnection] = []
 
-    async def receive(self, socket: Any) -> None:
-        """Talk to one page, from its first message until it has left."""
+    async def serve(self, socket: WebSocket) -> None:
+        """Serve one page, from its first message until it has left."""
         host = socket.headers.get("host")
-        if not (self.gate.host_allowed(host) and self.gate.origin_allowed(socket.headers.get("origin"), host)):
+        if not (self.rules.host_allowed(host) and self.rules.origin_allowed(socket.headers.get("origin"), host)):
             await socket.close(POLICY)
             return
         await socket.accept()
         try:
-            visit = await self._visit(socket, await asyncio.wait_for(self._hello(socket), GREETING))
-            try:
-                await visit.last()
-            finally:
-                self._visits.remove(visit)
+            hello = await asyncio.wait_for(self._hello(socket), GREETING)
+            connection = PageConnection(socket, self._opener.session_name(hello), self._config.limits, self._now)
+            with self._seat(connection) as before:
+                for other in before:
+                    await other.gone()
+                session = await connection.in_thread(lambda: self._session(hello, connection))
+                connection.name = session.name
+                await connection.run(session)
         except GoneError:
             logger.info("a page left")
         except (FetchPomdpError, TimeoutError) as error:
             await self._refuse(socket, error)
 
-    async def _refuse(self, socket: Any, error: Exception) -> None:
+    async def _refuse(self, socket: WebSocket, error: Exception) -> None:
         try:
-            await send(socket, complaint(error))
-            await close(socket, TRY_LATER if isinstance(error, FOR_NOW) else POLICY)
+            await send(socket, error_message(error))
+            await close(socket, TRY_LATER if isinstance(error, TEMPORARY) else POLICY)
         except GoneError:
             logger.info("a page left before it was refused")
 
-    async def _hello(self, socket: Any) -> Hello:
+    async def _hello(self, socket: WebSocket) -> Hello:
         message = await received(socket)
-        hello = message_from_text(message) if isinstance(message, str) else None
+        hello = read_page_message(message) if isinstance(message, str) else None
         if not isinstance(hello, Hello):
             raise MessageError("found another message, expected hello first", field="type")
-        if not self.gate.token_allowed(hello.token):
-            await asyncio.sleep(PENALTY)
-            raise MessageError("found a wrong token, expected the one that the server printed", field="token")
+        self._tokens.check(hello.token, socket.client.host if socket.client else "")
         return hello
 
-    async def _visit(self, socket: Any, hello: Hello) -> Visit:
-        outbox, config = Outbox(asyncio.get_running_loop()), self._config
-        name = self._reception.name(hello)
-        async with self._doors.setdefault(name or secrets.token_hex(), asyncio.Lock()):
-            before = [] if name is None else [visit for visit in self._visits if visit.party.name == name]
-            with self._seat(before):
-                for visit in before:
-                    await visit.leave()
-                party = await self._party(hello, name, outbox)
-                visit = Visit(socket, party, outbox, messages=config.messages, sound=config.sound)
-                self._visits.append(visit)
-        return visit
-
     @contextmanager
-    def _seat(self, before: Sequence[Visit]) -> Iterator[None]:
-        """Keep a seat for a page until it has a visit, which takes that of the visits of its person `before`.
+    def _seat(self, connection: PageConnection) -> Iterator[Sequence[PageConnection]]:
+        """Give a page a seat until it has left; yield the other pages of its session, which are disconnected.
 
         Raises FullError if there is none.
         """
-        people = len(self._visits) + self._arriving - len(before)
-        if people >= self._config.most_people:
-            raise FullError(f"found {people} people here, expected you to come back later")
-        self._arriving += 1
+        others = list(self._connections)
+        same = [other for other in others if connection.name is not None and other.name == connection.name]
+        seated = [other for other in others if other not in same and not other.leaving]
+        if len(seated) >= self._config.most_people:
+            idle = _idlest(seated)
+            if idle is None:
+                raise FullError(f"server full ({len(seated)} of {self._config.most_people}); try again later")
+            idle.disconnect(TRY_LATER)
+        for other in same:
+            other.disconnect(TAKEN_OVER)
+        self._connections.append(connection)
         try:
-            yield
+            yield same
         finally:
-            self._arriving -= 1
+            self._connections.remove(connection)
+            connection.release()
 
-    async def _party(self, hello: Hello, name: str | None, outbox: Outbox) -> Party:
-        """Return the party that a page goes on with, or a new one."""
-        if name is not None:
-            party = await asyncio.to_thread(self._reception.returning, hello, outbox.put)
-            if party is not None:
-                return party
-        return await asyncio.to_thread(self._reception.newcomer, hello, outbox.put)
+    def _session(self, hello: Hello, connection: PageConnection) -> PageSession:
+        """Return the session that a page comes back to, or a new one."""
+        found = None if connection.name is None else self._opener.resume(hello, connection.queue.put)
+        return found or self._opener.new(hello, connection.queue.put)
+
+
+def _idlest(connections: Sequence[PageConnection]) -> PageConnection | None:
+    """Return the page that is disconnected first for a newcomer, None if none is idle."""
+    idle = [each for each in connections if each.silence() > (IDLE if each.has_spoken else IDLE_NEW)]
+    return max(idle, key=lambda each: (not each.has_spoken, each.silence()), default=None)

@@ -1,4 +1,4 @@
-"""What a page has not been told yet."""
+"""Messages that wait to be sent to a page."""
 
 from __future__ import annotations
 
@@ -6,27 +6,27 @@ import asyncio
 from collections import deque
 from threading import Lock
 
-from fetch_pomdp.adapters.web.tell import Told
+from fetch_pomdp.adapters.web.server_messages import ServerMessage
 
-MOST_WAITING = 1_000  # messages; a page that has fallen so far behind is let go, and may come back
+MOST_WAITING = 1_000  # messages; a page that falls further behind is disconnected, and may come back
 
 
-class Outbox:
+class SendQueue:
     """Messages from any thread to one page.
 
-    A belief replaces the one before it that was not sent yet: a slow page is told fewer of them, and of every event.
+    A belief replaces an unsent one right before it: a slow page gets fewer beliefs, and every event.
     """
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
         self._loop, self._came, self._lock = loop, asyncio.Event(), Lock()
-        self._waiting: deque[Told] = deque()
+        self._waiting: deque[ServerMessage] = deque()
 
-    def put(self, told: Told) -> None:
-        """Leave a message; nothing is kept for a page that is gone."""
+    def put(self, message: ServerMessage) -> None:
+        """Add a message; for a page that is gone it is dropped."""
         with self._lock:
-            if told["type"] == "belief" and self._waiting and self._waiting[-1]["type"] == "belief":
+            if message["type"] == "belief" and self._waiting and self._waiting[-1]["type"] == "belief":
                 self._waiting.pop()
-            self._waiting.append(told)
+            self._waiting.append(message)
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._came.set)
 
@@ -35,7 +35,7 @@ class Outbox:
         """Whether the page has fallen too far behind."""
         return len(self._waiting) > MOST_WAITING
 
-    async def take(self) -> list[Told]:
+    async def take(self) -> list[ServerMessage]:
         """Wait for messages and take all there are."""
         await self._came.wait()
         self._came.clear()

@@ -1,4 +1,4 @@
-"""What the server tells a page, as JSON objects."""
+"""What the server sends to a page, as JSON objects."""
 
 from __future__ import annotations
 
@@ -18,11 +18,12 @@ from fetch_pomdp.errors import EventError, InputError, StoreError
 from fetch_pomdp.files.decisions import decision_to_json
 from fetch_pomdp.files.events import action_to_json, event_to_json
 
-Told = dict[str, Any]
-View: TypeAlias = Callable[[Update, Agent], Told | None]  # what a page is told of an update
+ServerMessage: TypeAlias = dict[str, Any]
+Send: TypeAlias = Callable[[ServerMessage], None]  # from any thread; returns soon
+View: TypeAlias = Callable[[Update, Agent], ServerMessage | None]  # what a page is told of an update
 
 ASKS, HANDS_OVER = "This one?", "Here you are."
-BROKEN = "broken"  # code of a complaint: the party is at its end, and its page is let go
+BROKEN = "broken"  # code of an error: the session has ended, and its page is disconnected
 # All that the robot says; the page has these sentences in its languages, the server as sound.
 SENTENCES = {
     "asks": ASKS,
@@ -34,14 +35,14 @@ SENTENCES = {
 _KEYS = {sentence: key for key, sentence in SENTENCES.items()}
 
 
-def scene_to_json(scene: Scene) -> Told:
+def scene_to_json(scene: Scene) -> ServerMessage:
     """Return the table as a page draws it: items, head, and the noise of pointing (rad)."""
     fields = scene.to_mapping()
     return {**fields, "sigma": scene.model.sigma, "threshold": scene.model.gesture_threshold}
 
 
-def saying(sentence: str, *, audible: bool) -> Told:
-    """Return what the robot says now, and where its sound is, if there is one."""
+def say_message(sentence: str, *, audible: bool) -> ServerMessage:
+    """Return a sentence of the robot, with the address of its sound if there is one."""
     key = _KEYS.get(sentence)
     audio = f"voice/{key}.wav" if audible and key is not None else None
     return {"type": "say", "key": key, "text": sentence, "audio": audio}
@@ -52,8 +53,8 @@ def belief_by_id(belief: Vector, scene: Scene) -> dict[str, float]:
     return dict(zip((item.id for item in scene.items), belief.tolist(), strict=True))
 
 
-def with_insight(update: Update, agent: Agent) -> Told | None:
-    """Return an update as a message, with what the robot believes and why; None where there is nothing to tell."""
+def with_insight(update: Update, agent: Agent) -> ServerMessage | None:
+    """Return an update as a message, with what the robot believes and why; None if there is nothing to tell."""
     if isinstance(update, BeliefChanged):
         return {**_changed(update), "belief": belief_by_id(update.belief, agent.scene)}
     if isinstance(update, Decided):
@@ -61,39 +62,39 @@ def with_insight(update: Update, agent: Agent) -> Told | None:
     return _outward(update, agent)
 
 
-def without_insight(update: Update, agent: Agent) -> Told | None:
-    """Return an update as a message that says nothing of the robot's mind; None where there is nothing to tell."""
+def without_insight(update: Update, agent: Agent) -> ServerMessage | None:
+    """Return an update as a message without beliefs and reasons; None if there is nothing to tell."""
     if isinstance(update, BeliefChanged):
         return _changed(update)
     if isinstance(update, Decided):
-        return decided(update, agent)
+        return decided_message(update, agent)
     return _outward(update, agent)
 
 
-def decided(update: Decided, agent: Agent) -> Told:
+def decided_message(update: Decided, agent: Agent) -> ServerMessage:
     """Return the action that begins, without its reasons."""
     return {"type": "decided", "t": update.time, **action_to_json(update.decision.action, agent.scene)}
 
 
-def _changed(update: BeliefChanged) -> Told:
+def _changed(update: BeliefChanged) -> ServerMessage:
     return {"type": "belief", "t": update.time, "provisional": update.provisional, "heard": list(update.words)}
 
 
-def _outward(update: Did | Heard | SensorStatus | Ended, agent: Agent) -> Told | None:
+def _outward(update: Did | Heard | SensorStatus | Ended, agent: Agent) -> ServerMessage | None:
     if isinstance(update, Did | Heard):
         return event_message(update.event, agent)
     if isinstance(update, SensorStatus):
-        return sensor_status(update)
+        return status_message(update)
     return {"type": "ended", "picked": update.picked}
 
 
-def sensor_status(update: SensorStatus) -> Told:
-    """Return how a sensor does."""
+def status_message(update: SensorStatus) -> ServerMessage:
+    """Return the state of a sensor."""
     return {"type": "status", "sensor": update.name, "state": update.state.value, "text": update.text}
 
 
-def event_message(event: Event, agent: Agent) -> Told | None:
-    """Return an event of the log as a message; silent observations and finished waits are nobody's news."""
+def event_message(event: Event, agent: Agent) -> ServerMessage | None:
+    """Return an event of the log as a message, None for a finished wait and for an observation of nothing."""
     if isinstance(event, Acted):
         if isinstance(event.action, Wait):
             return None
@@ -106,8 +107,8 @@ def event_message(event: Event, agent: Agent) -> Told | None:
     return {"type": "observed", "unknown": unknown, "understood": understood, **event_to_json(event, agent.scene)}
 
 
-def complaint(error: Exception, code: str = "refused") -> Told:
-    """Return an error as a page is told of it; what is none of the person's making is not described."""
-    theirs = isinstance(error, InputError) and not isinstance(error, EventError | StoreError)
-    text = str(error) if theirs else "something went wrong on the server"
+def error_message(error: Exception, code: str = "refused") -> ServerMessage:
+    """Return an error as a page is told of it; one that the page did not cause is not described."""
+    caused_by_page = isinstance(error, InputError) and not isinstance(error, EventError | StoreError)
+    text = str(error) if caused_by_page else "something went wrong on the server"
     return {"type": "error", "code": code, "message": text}
