@@ -27,6 +27,32 @@ def test_a_short_token_is_refused(run: Run) -> None:
     assert (code, error) == (2, "fetch-pomdp: --token: found 6 characters, expected 16 or more\n")
 
 
+@pytest.mark.parametrize("option", ["--token", "--researcher-token"])
+@pytest.mark.parametrize(
+    "token",
+    [
+        "a secret of many letters",
+        "ein-geheimes-wort-mit-ü",
+        "no-text-\udcff-at-all-is-this",
+        "tab\tbed-token-of-many",
+        "",
+    ],
+)
+def test_a_token_that_no_request_can_carry_is_refused(run: Run, option: str, token: str) -> None:
+    code, _, error = run("serve", option, token)
+    found = "expected ASCII letters, digits and punctuation, without spaces" if token else "found 0 characters"
+    assert (code, error.count("\n")) == (2, 1)
+    assert error.startswith(f"fetch-pomdp: {option}: {found}")
+
+
+def test_a_folder_that_cannot_be_made_is_said_in_a_line(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    for folder in (tmp_path / "file", tmp_path / "file" / "data", Path("/proc/data")):
+        code, _, error = run("serve", "--data", folder)
+        assert (code, error.splitlines()[-1].startswith(f"fetch-pomdp: --data: {folder}: ")) == (2, True)
+        assert error.endswith("expected a folder, or a place for one\n")
+
+
 def test_an_address_that_is_taken_is_said_in_a_line(run: Run) -> None:
     with socket.create_server(("127.0.0.1", 0)) as door:
         port = door.getsockname()[1]

@@ -135,3 +135,33 @@ def test_who_was_deleted_meanwhile_begins_anew(tmp_path: Path) -> None:
         page.send({"type": "withdraw"})
         stage(page, "withdrawn")
         stage(house.page(participant=told["resume"]), "consent")
+
+
+def test_who_agrees_right_before_the_server_dies_has_their_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    enrol = Store.enrol
+
+    def last_commit(*given: Any, **more: Any) -> Any:
+        enrol(*given, **more)
+        raise StoreError("the server dies")
+
+    with study_at(tmp_path) as house:
+        page = house.page()
+        secret = stage(page, "consent")["resume"]
+        with monkeypatch.context() as patched:
+            patched.setattr(Store, "enrol", last_commit)
+            reply(page, "consent", taking_part=True)
+            assert let_go(page) == TRY_LATER
+    with study_at(tmp_path) as house:  # another server
+        told = stage(house.page(participant=secret), "instructions")
+        assert [row["code"] for row in progress(house)] == [told["code"]]
+        assert told["resume"] == secret
+
+
+def test_who_only_reads_the_consent_takes_no_place(tmp_path: Path) -> None:
+    with study_at(tmp_path) as house:
+        first = stage(house.page(), "consent")["resume"]
+        again = stage(house.page(participant=first), "consent")["resume"]
+        assert again != first
+        assert progress(house) == []

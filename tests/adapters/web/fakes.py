@@ -124,6 +124,7 @@ class FakeOpener:
 
     def _session(self, hello: Hello, name: str, send: Send) -> FakeSession:
         self._meet(hello)
-        self.sessions.append(FakeSession(name, self._work, ends=self._ends))
+        session = FakeSession(name, self._work, ends=self._ends)
+        self.sessions.append(session)
         send({"type": "welcome"})
-        return self.sessions[-1]
+        return session

@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from fetch_pomdp.adapters.web.page_connection import LEAST_SOUND, POLICY
+from fetch_pomdp.adapters.web.page_connection import LEAST_SOUND, POLICY, TRY_LATER
 from fetch_pomdp.adapters.web.page_messages import LARGEST_MESSAGE
 from fetch_pomdp.errors import MessageError
 from tests.adapters.web.fakes import FakeClock, FakeSession, FakeSocket, connected
@@ -83,3 +83,34 @@ def test_what_is_no_message_is_told_to_the_page() -> None:
         return socket
 
     assert asyncio.run(come()).told[0]["type"] == "error"
+
+
+@pytest.mark.parametrize("message", [None, "nonsense"])
+def test_a_page_that_sends_nothing_valid_is_disconnected(message: str | None) -> None:
+    def refuse(message: str | bytes) -> None:
+        raise MessageError(f"found {message!r}, expected another")
+
+    async def come() -> FakeSocket:
+        socket = FakeSocket()
+        if message is not None:
+            socket.send(message)
+        await connected(socket, first_message=0.05).run(FakeSession("", refuse))
+        return socket
+
+    assert asyncio.run(come()).code == TRY_LATER
+
+
+def test_one_that_has_sent_something_is_not() -> None:
+    async def come() -> int | None:
+        socket, session = FakeSocket(), FakeSession("")
+        connection = connected(socket, first_message=1e6)
+        going_on = asyncio.create_task(connection.run(session))
+        while not connection.has_spoken:
+            await asyncio.sleep(0.01)
+        connection._expect_first_message()
+        code = socket.code
+        socket.leave()
+        await going_on
+        return code
+
+    assert asyncio.run(come()) is None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 import tempfile
 import wave
 from pathlib import Path
@@ -22,7 +23,7 @@ from fetch_pomdp.user_study.store import trials
 from fetch_pomdp.user_study.store.exporting import Exported
 from fetch_pomdp.user_study.store.store import Store
 from tests.files.test_recordings import events as any_event
-from tests.user_study.store.made import PICKED, WAITED, header, joined
+from tests.user_study.store.made import PICKED, SCENE, WAITED, header, joined
 
 
 def rows(path: Path) -> list[dict[str, str]]:
@@ -115,6 +116,24 @@ def test_an_export_holds_the_study_and_nothing_of_who_withdrew(studied: Store, t
     )  # fmt: skip
     assert len(first["consent_text"]) == 64
     assert not {"secret", "id"} & set(first)
+
+
+def test_nothing_in_a_table_is_a_formula(store: Store, tmp_path: Path) -> None:
+    texts = ["=1+1", "+1", "-1", "@sum", "\t=1", "\r=1", "'=1", "a=1", "1-1"]
+    scene = dataclasses.replace(SCENE, items=tuple(dataclasses.replace(item, id=f"={item.id}") for item in SCENE.items))
+    someone = joined(store)
+    for number, text in enumerate(texts):
+        store.answer(someone.id, f"q{number}", text)
+    store.trial(
+        someone.id, "trial", 0, dataclasses.replace(header(0, 0, "=bowl-2"), scene=scene, scene_name=None)
+    ).write(PICKED)
+    store.export(tmp_path / "out")
+    kept = [row["value"] for row in rows(tmp_path / "out" / "answers.csv")]
+    assert kept == [f"'{text}" for text in texts[:6]] + texts[6:]
+    (trial,) = rows(tmp_path / "out" / "trials.csv")
+    assert (trial["target"], trial["picked"]) == ("'=bowl-2", "'=bowl-2")
+    (log,) = (tmp_path / "out" / "logs").iterdir()
+    assert read_recording(log).header.target == "=bowl-2"
 
 
 def test_the_folder_is_read_as_the_table_of_a_study(studied: Store, tmp_path: Path) -> None:
