@@ -24,7 +24,7 @@ from tests.adapters.web.fakes import FakeClock, FakeOpener, FakeSocket, serve
 async def until_closed(manager: ConnectionManager, pages: Sequence[FakeSocket], count: int) -> None:
     """Let pages come at once, wait until so many are closed, and let all leave."""
     coming = [asyncio.create_task(serve(manager, page)) for page in pages]
-    async with asyncio.timeout(20):
+    async with asyncio.timeout(60):
         while sum(page.code is not None for page in pages) < count:
             await asyncio.sleep(0.01)
     for page in pages:

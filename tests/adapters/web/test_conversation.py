@@ -44,12 +44,12 @@ class Sessions:
             def run(self) -> None:
                 stage.inboxes.append(self._inbox)
                 stage.begun.put(tuple(word.text for word in self._inbox.take_words(1e9)))
-                stage.end.acquire(timeout=10)
+                stage.end.acquire(timeout=120)
 
         monkeypatch.setattr(module, "LiveSession", Session)
 
     def next(self) -> tuple[str, ...]:
-        return self.begun.get(timeout=10)
+        return self.begun.get(timeout=120)
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ def test_nobody_waits_for_what_another_page_sends() -> None:
 
     def slow(message: str | bytes) -> None:  # noqa: ARG001
         busy.set()
-        waited.append(not go_on.wait(5))
+        waited.append(not go_on.wait(120))
 
     async def come() -> list[str | bytes]:
         socket, session = FakeSocket(), FakeSession("slow", slow)
@@ -26,7 +26,7 @@ def test_nobody_waits_for_what_another_page_sends() -> None:
         going_on = asyncio.create_task(connection.run(session))
         for text in ("one", "two"):
             socket.send(text)
-        await asyncio.to_thread(busy.wait, 10)
+        await asyncio.to_thread(busy.wait, 120)
         go_on.set()  # by the loop itself, which is not the one that waits
         while len(session.taken) < 3:
             await asyncio.sleep(0.01)

@@ -309,7 +309,7 @@ def test_more_people_than_there_is_room_for_are_told_so() -> None:
 
 
 def test_who_sends_too_much_is_not_heard_and_then_let_go() -> None:
-    with house_of(ServerConfig(limits=ConnectionLimits(messages=5.0))) as house:
+    with house_of(ServerConfig(limits=ConnectionLimits(messages=0.0))) as house:
         page = house.page()
         page.next("welcome")
         for _ in range(230):

@@ -29,7 +29,7 @@ from fetch_pomdp.user_study.store.schema import ANSWERS, EVENTS, PARTICIPANTS, S
 
 RATE, WIDTH = 16_000, 2  # Hz, bytes
 JITTER = 0.1  # s that a piece of sound may come late and still follow the one before it
-FORMULA = ("=", "+", "-", "@", "\t", "\r")  # what a spreadsheet takes for the beginning of a formula
+FORMULA = ("=", "+", "-", "@", "\t")  # what a spreadsheet takes for the beginning of a formula
 PRIVATE = 0o700
 PEOPLE = (
     "person", "code", "language", "stage", "joined", "consented", "consent_text", "finished", "trials_done", "of",
