@@ -6,6 +6,7 @@ import ipaddress
 import logging
 import secrets
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 from urllib.parse import quote
@@ -68,28 +69,22 @@ def serve_page(
     from fetch_pomdp.adapters.web.page_messages import scene_asked_for
     from fetch_pomdp.adapters.web.server import create_app, serve
 
-    if not _is_loopback(host) and token is None:
-        suggestion = secrets.token_urlsafe(16)
-        raise InputError(f"{host} needs a token, such as --token {suggestion}", field="--token")
-    _check_token(token, "--token")
+    _check_token(token, "--token", None if _is_loopback(host) else host)
     _check_token(researcher_token, "--researcher-token")
     _check_combination(scene, study, {"--data": data, "--database": database, "--researcher-token": researcher_token})
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
     config, speech = ServerConfig(scene=scene_asked_for(scene), token=token), speech_if_installed()
-    researcher_token = researcher_token or secrets.token_urlsafe(24)
+    addresses = [f"The robot is at {address_of(host, port, '', token)}  (Ctrl-C ends it)"]
     opener: ConversationOpener | StudyApp
     if study is None:
         opener = ConversationOpener(data, insight=not no_insight, speech=speech)
         app = create_app(config, opener, voice=speech.voice)
     else:
-        opener = _study_app(study, database, researcher_token, speech)
+        secret = researcher_token or secrets.token_urlsafe(24)
+        opener = _study_app(study, database, secret, speech)
         app = create_app(config, opener, voice=speech.voice, routes=opener.routes())
-
-    def ready() -> None:
-        print(f"The robot is at {address_of(host, port, '', token)}  (Ctrl-C ends it)", flush=True)
-        if study is not None:
-            print(f"The researcher's page is {address_of(host, port, 'researcher.html', researcher_token)}", flush=True)
-
+        addresses.append(f"The researcher's page is {address_of(host, port, 'researcher.html', secret)}")
+    ready = partial(print, *addresses, sep="\n", flush=True)
     serve(app, host, port, ready=ready, warm_up=opener.warm_up)
 
 
@@ -120,9 +115,11 @@ def _study_app(study: Path, database: str | None, token: str, speech: Speech) ->
     return StudyApp(config, Store.open(database or DATABASE), token, speech=speech)
 
 
-def _check_token(token: str | None, field: str) -> None:
-    """Raise InputError for a token that is easily guessed, or that a request cannot carry."""
+def _check_token(token: str | None, field: str, host: str | None = None) -> None:
+    """Raise InputError for a token that is easily guessed, that a request cannot carry, or that `host` lacks."""
     if token is None:
+        if host is not None:
+            raise InputError(f"{host} needs a token, such as --token {secrets.token_urlsafe(16)}", field=field)
         return
     if not all("!" <= letter <= "~" for letter in token):
         raise InputError("expected ASCII letters, digits and punctuation, without spaces", field=field)

@@ -22,7 +22,7 @@ from fetch_pomdp.user_study.questionnaire import Question, question_from_mapping
 
 SECTION = "participation"
 FIELDS = ("title", "consent", "instructions", "practice", "questions", "keep_sound", "countdown")
-SIMULATED = ("population", "clock", "logs", "real_speech")  # of a study: about simulated people alone
+SIMULATED = ("population", "clock", "logs", "real_speech")  # fields of a study that are about simulated people alone
 MOST_PRACTICE = 100
 LONGEST_COUNTDOWN = 60.0  # s
 
@@ -42,7 +42,7 @@ class UserStudy:
     instructions: Mapping[str, str]
     questions: tuple[Question, ...]
     practice: int  # trials before those that count
-    keep_sound: bool  # of who agrees
+    keep_sound: bool  # of those who agree to it
     countdown: float  # s, before each trial
 
     def __post_init__(self) -> None:

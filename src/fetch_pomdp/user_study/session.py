@@ -31,7 +31,8 @@ logger = logging.getLogger(__name__)
 class ParticipantSession:
     """A PageSession: one participant, and one conversation after the other.
 
-    secret: of the participant's page. person: None for somebody new, of whom nothing is kept before they agree.
+    returning: the secret and the participant of a page that comes back; None for a new page, of whose person nothing is
+    kept before they agree.
 
     Choice: a new page gets its secret with the consent text, before there is a participant. A place is taken by the
     answer of a page that holds its secret already, so that no place is lost if the server dies right after.

@@ -47,6 +47,7 @@ class Sessions:
                 stage.end.acquire(timeout=120)
 
         monkeypatch.setattr(module, "LiveSession", Session)
+        monkeypatch.setattr(module, "prepare", lambda *_: None)
 
     def next(self) -> tuple[str, ...]:
         return self.begun.get(timeout=120)

@@ -13,6 +13,7 @@ import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
+from fetch_pomdp.adapters.web import robot
 from fetch_pomdp.adapters.web.connection_manager import ServerConfig
 from fetch_pomdp.adapters.web.conversations import ConversationOpener
 from fetch_pomdp.adapters.web.ears import speech_if_installed
@@ -24,6 +25,7 @@ ORIGIN = {"origin": HOME}
 SESSION = "ws://127.0.0.1:8000/session"  # the test client calls a relative address testserver
 HELLO = {"type": "hello", "version": 1, "planner": "threshold"}
 USUAL = ServerConfig()
+FOR_EVER = 1e6  # s
 ENDLESS = ConnectionLimits(messages=1e9, sound=1e9)
 
 
@@ -238,7 +240,8 @@ def test_who_may_not_look_into_the_robot_s_mind_is_told_nothing_of_it() -> None:
         assert page.next("decided", action="point").keys() == {"type", "t", "action", "item"}
 
 
-def test_a_hand_over_can_be_stopped(house: House) -> None:
+def test_a_hand_over_can_be_stopped(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(robot, "GRASP", FOR_EVER)
     page = house.page(planner="never")
     page.send({"type": "typed", "text": "green marker expo pen"})
     item = page.next("decided", action="pick")["item"]
@@ -261,12 +264,13 @@ def test_two_people_hear_nothing_of_each_other(house: House) -> None:
         assert belief[f"{word}-1"] > 2 * belief[f"{absent}-1"]
 
 
-def test_who_comes_back_goes_on_where_they_were(tmp_path: Path) -> None:
+def test_who_comes_back_goes_on_where_they_were(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with house_of(data=tmp_path) as house:
         page = house.page()
         secret = page.next("welcome")["resume"]
         page.send({"type": "typed", "text": "green marker"})
         asked = page.next("action", action="point")["item"]
+        monkeypatch.setattr(robot, "ARM", FOR_EVER)  # however long it takes to leave, no more is asked
     with house_of(data=tmp_path) as house:  # another server
         page = house.page(resume=secret, scene="unambiguous")
         welcome = page.next("welcome")

@@ -131,7 +131,7 @@ def test_nothing_in_a_table_is_a_formula(store: Store, tmp_path: Path) -> None:
     kept = [row["value"] for row in rows(tmp_path / "out" / "answers.csv")]
     assert kept == [f"'{text}" for text in texts[:5]] + texts[5:]
     (trial,) = rows(tmp_path / "out" / "trials.csv")
-    assert (trial["target"], trial["picked"]) == ("'=bowl-2", "'=bowl-2")
+    assert (trial["desired"], trial["picked"]) == ("'=bowl-2", "'=bowl-2")
     (log,) = (tmp_path / "out" / "logs").iterdir()
     assert read_recording(log).header.target == "=bowl-2"
 

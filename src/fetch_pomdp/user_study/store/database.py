@@ -75,7 +75,7 @@ class Database:
     def writing(self) -> Iterator[Connection]:
         """Begin a transaction that may write; it is committed when the block ends, or undone if it raises.
 
-        Raises ConflictError where rows contradict each other, StoreError for whatever else the database refuses.
+        Raises ConflictError where rows contradict each other, StoreError for anything else that the database refuses.
         """
         with self._turn, self._translated(), self.engine.begin() as connection:
             yield connection
@@ -157,7 +157,7 @@ def _engine(url: sa.URL) -> Engine:
         arguments = {} if "connect_timeout" in url.query else {"connect_timeout": CONNECT}
         return sa.create_engine(url, pool_pre_ping=True, pool_size=POOL, max_overflow=0, connect_args=arguments)
     with contextlib.suppress(OSError):  # connecting says what is wrong
-        os.close(os.open(url.database or "", os.O_CREAT | os.O_RDWR, 0o600))  # nobody else's to read
+        os.close(os.open(url.database or "", os.O_CREAT | os.O_RDWR, 0o600))  # readable for its owner alone
     engine = sa.create_engine(url, connect_args={"timeout": PATIENCE})
     sa.event.listen(engine, "connect", _prepare_sqlite)
     sa.event.listen(engine, "begin", _begin_sqlite)
