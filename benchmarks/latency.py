@@ -8,8 +8,8 @@
 2. The page in Chromium, whose fake microphone plays sentences: from the end of an item's word, in the sound as it
    leaves the page, to the change of the bars in the document. What a real microphone and screen take comes on top.
 3. Fifty at once: ten speak a fifth of the time into open microphones, the others type and point. The same delays; how
-   long a decision takes, from the step's end to what is told of the decision, both by the server's clock in its
-   messages; memory. The people run in one process beside the server, on the same cores: what that takes is told, too.
+   long a decision takes, from the step's end to the message about it, both by the server's clock in its
+   messages; memory. The people run in one process beside the server, on the same cores: its cost is printed, too.
 
 A word's end is where a forced alignment of the clean recording puts it, and not what the recogniser believes; words
 count that are about an item or answer a question. One that was not heard within 3 s counts as missed.
@@ -33,7 +33,7 @@ import numpy as np
 import latency_report
 from sayings import say, say_all
 from serving import Served, Spent
-from visitors import KINDS, SENTENCES, Speaker, Stay, Visitor
+from visitors import KINDS, SENTENCES, Interaction, Speaker, Visitor
 from voices import missing_tools
 from watched import Delays, watch
 
@@ -45,21 +45,21 @@ MISSED = 3.0  # s
 SHARE = 0.2  # of the time that a speaker speaks
 
 
-def word_delays(stays: Sequence[Stay]) -> Delays:
+def word_delays(interactions: Sequence[Interaction]) -> Delays:
     """Return how long after its end each word moved a bar; one that is heard and moves none does not count."""
     delays, missed = [], 0
-    for stay in stays:
-        beliefs = stay.messages("belief")
-        for said in stay.said:
-            if said.word not in MOVING or said.end + MISSED > stay.told[-1].at:
+    for interaction in interactions:
+        beliefs = interaction.messages("belief")
+        for said in interaction.said:
+            if said.word not in MOVING or said.end + MISSED > interaction.received[-1].at:
                 continue  # no matter of a bar, or the interaction was over
             heard = [
-                (before.message["belief"], told)
-                for before, told in pairwise(beliefs)
-                if said.start <= told.at <= said.end + MISSED and said.word in told.message["heard"]
+                (before.message["belief"], received)
+                for before, received in pairwise(beliefs)
+                if said.start <= received.at <= said.end + MISSED and said.word in received.message["heard"]
             ]
             missed += not heard
-            moved = (told.at for before, told in heard if _change(before, told.message["belief"]) >= LEAST)
+            moved = (received.at for before, received in heard if _change(before, received.message["belief"]) >= LEAST)
             delays += [at - said.end for at in [next(moved, None)] if at is not None]
     return Delays(delays, missed)
 
@@ -68,12 +68,12 @@ def _change(before: dict[str, float], after: dict[str, float]) -> float:
     return max(abs(after[item] - before[item]) for item in after)
 
 
-def decision_times(stays: Sequence[Stay]) -> list[float]:
-    """Return how long (s) each decision took, by the server's clock: from the step's end to what is told of it."""
+def decision_times(interactions: Sequence[Interaction]) -> list[float]:
+    """Return how long (s) each decision took, by the server's clock: from the step's end to the message about it."""
     times = []
-    for stay in stays:
+    for interaction in interactions:
         ended = None
-        for message in (told.message for told in stay.told):
+        for message in (received.message for received in interaction.received):
             if message["type"] == "belief" and not message["provisional"]:
                 ended = message["t"]
             elif message["type"] == "decided" and ended is not None:
@@ -82,11 +82,11 @@ def decision_times(stays: Sequence[Stay]) -> list[float]:
     return times
 
 
-def delivery_times(stays: Sequence[Stay]) -> list[float]:
-    """Return by how much (s) later than the promptest of its interaction each decision was told."""
+def delivery_times(interactions: Sequence[Interaction]) -> list[float]:
+    """Return by how much (s) later than the promptest of its interaction each decision arrived."""
     times = []
-    for stay in stays:
-        lags = [told.at - told.message["t"] for told in stay.messages("decided")]
+    for interaction in interactions:
+        lags = [received.at - received.message["t"] for received in interaction.messages("decided")]
         times += [lag - min(lags) for lag in lags]
     return times
 
@@ -100,28 +100,28 @@ def summary(values: Sequence[float]) -> dict[str, float]:
 _QUANTILES = {"median": 0.5, "p90": 0.9, "p99": 0.99, "longest": 1.0}
 
 
-def outcome(stays: Sequence[Stay]) -> dict[str, Any]:
+def outcome(interactions: Sequence[Interaction]) -> dict[str, Any]:
     """Return what came of interactions."""
-    over = [stay for stay in stays if stay.picked is not None]
-    delays = word_delays(stays)
+    over = [interaction for interaction in interactions if interaction.picked is not None]
+    delays = word_delays(interactions)
     return {
-        "interactions": len(stays),
+        "interactions": len(interactions),
         "handed_over": len(over),
-        "right": sum(stay.picked == stay.wanted for stay in over),
+        "right": sum(interaction.picked == interaction.wanted for interaction in over),
         "word_to_bar_s": {**summary(delays.delays), "missed": delays.missed},
-        "decision_s": summary(decision_times(stays)),
-        "decision_told_late_s": summary(delivery_times(stays)),
+        "decision_s": summary(decision_times(interactions)),
+        "decision_told_late_s": summary(delivery_times(interactions)),
     }
 
 
 async def alone(host: str, seconds: float, snr: int, folder: Path) -> dict[str, Any]:
     """Let one person after the other speak, each alone on the server."""
-    stays: list[Stay] = []
+    interactions: list[Interaction] = []
     for seed, voice in enumerate(VOICES):
         speaker = Speaker(host, seed, say_all(TEXTS, voice, snr, folder), share=1.0)
         await speaker.come_and_go(time.monotonic() + seconds / len(VOICES))
-        stays += speaker.stays
-    return outcome(stays)
+        interactions += speaker.interactions
+    return outcome(interactions)
 
 
 async def crowd(served: Served, options: argparse.Namespace, before: Spent) -> dict[str, Any]:
@@ -145,13 +145,16 @@ async def crowd(served: Served, options: argparse.Namespace, before: Spent) -> d
         many = served.spent()
         spent = time.monotonic() - begun
         took, own = many.cpu - cpu, time.process_time() - own
-    stays = [stay for visitor in (*speakers, *typists) for stay in visitor.stays]
+    interactions = [interaction for visitor in (*speakers, *typists) for interaction in visitor.interactions]
     return {
         "memory_mb": {"0": before.memory, str(options.speakers): few.memory, str(options.people): many.memory},
         "cores": {"server": round(took / spent, 2), "people": round(own / spent, 2)},
-        "speakers": outcome([stay for visitor in speakers for stay in visitor.stays]),
-        "typists": outcome([stay for visitor in typists for stay in visitor.stays]),
-        "all": {"decision_s": summary(decision_times(stays)), "decision_told_late_s": summary(delivery_times(stays))},
+        "speakers": outcome([interaction for visitor in speakers for interaction in visitor.interactions]),
+        "typists": outcome([interaction for visitor in typists for interaction in visitor.interactions]),
+        "all": {
+            "decision_s": summary(decision_times(interactions)),
+            "decision_told_late_s": summary(delivery_times(interactions)),
+        },
     }
 
 

@@ -33,7 +33,7 @@ PAUSE = 1.5  # s between sentences
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class Hypothesis:
     """What the ears told at a time (s): a hypothesis or, when it is final, a word."""
 
     at: float
@@ -43,11 +43,11 @@ class Told:
 
 def alone(sounds: list[np.ndarray], transcriber: Transcriber, loaded: object) -> tuple[list[float], list[float]]:
     """Return the delays (s) of words from their ends to the first hypothesis with them, and until they are final."""
-    told: list[Told] = []
+    heard: list[Hypothesis] = []
     now = free = 0.0
 
     def tell(words: tuple[Word, ...] | None, *, final: bool) -> None:
-        told.append(Told(now + time.process_time() - begun, words or (), final))
+        heard.append(Hypothesis(now + time.process_time() - begun, words or (), final))
 
     stream = Stream(
         transcriber, Silero(loaded), lambda words: tell(words, final=False), lambda word: tell((word,), final=True),
@@ -62,14 +62,14 @@ def alone(sounds: list[np.ndarray], transcriber: Transcriber, loaded: object) ->
             stream.feed(*chunks.pop(0))
         stream.guess()
         free = now + time.process_time() - begun
-    words = [(entry.at, entry.words[0]) for entry in told if entry.final]
-    return [_shown(word, told) - word.end for _, word in words], [at - word.end for at, word in words]
+    words = [(entry.at, entry.words[0]) for entry in heard if entry.final]
+    return [_shown(word, heard) - word.end for _, word in words], [at - word.end for at, word in words]
 
 
-def _shown(word: Word, told: list[Told]) -> float:
+def _shown(word: Word, heard: list[Hypothesis]) -> float:
     return next(
         entry.at
-        for entry in told
+        for entry in heard
         if any(guess.text == word.text and abs(guess.end - word.end) < 0.3 for guess in entry.words)
     )
 

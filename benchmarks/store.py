@@ -21,15 +21,15 @@ from pathlib import Path
 
 import numpy as np
 
-from fetch_pomdp.adapters.store.journal import TrialJournal
-from fetch_pomdp.adapters.store.participant import Agreement
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.core.events import Event, Observed
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.header import Header
+from fetch_pomdp.user_study.store.participants import Agreement
+from fetch_pomdp.user_study.store.store import Store
+from fetch_pomdp.user_study.store.trials import StoredTrial
 
 EVENT: Event = Observed(  # as long as those of a person who speaks and points
     Observation(("hand", "me", "the", "marker"), Ray((0.0, 0.0, 1.6), (0.0123, 0.4567, 1.4321))),
@@ -51,12 +51,12 @@ class Timed:
     longest: float
 
 
-def measured(writers: str, trials: list[TrialJournal], seconds: float, pause: Callable[[], float]) -> Timed:
+def measured(writers: str, trials: list[StoredTrial], seconds: float, pause: Callable[[], float]) -> Timed:
     """Let each trial have a writer of its own, in a thread, for some seconds."""
     took: list[list[float]] = [[] for _ in trials]
     begun = time.perf_counter()
 
-    def write(trial: TrialJournal, mine: list[float]) -> None:
+    def write(trial: StoredTrial, mine: list[float]) -> None:
         while time.perf_counter() - begun < seconds:
             if (rest := pause()) > 0:
                 time.sleep(rest)
@@ -80,8 +80,8 @@ def run(url: str, sessions: int, rate: float, seconds: float) -> list[Timed]:
     store, rng = Store.open(url), np.random.default_rng(0)
     header = Header(scene=Scene.load("ambiguous"), scene_name="ambiguous", target="bowl-1", person=0)
     agreed, trials = Agreement(language="en", given={}, text=""), []
-    for _ in range(sessions):
-        someone, _ = store.enrol("benchmark", "none", sessions, agreed, trials=lambda _: 1)
+    for number in range(sessions):
+        someone = store.enrol("benchmark", "none", sessions, agreed, secret=f"secret {number}", trials=lambda _: 1)
         trials.append(store.trial(someone.id, "trial", 0, header))
     lock = threading.Lock()
 

@@ -31,7 +31,7 @@ Message = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class Received:
     """A message of the server, and when it came (s, monotonic)."""
 
     at: float
@@ -48,17 +48,17 @@ class Said:
 
 
 @dataclass
-class Stay:
-    """One interaction: what was wanted, said and told."""
+class Interaction:
+    """One interaction: what was wanted, said and received."""
 
     wanted: str
-    told: list[Told] = field(default_factory=list)
+    received: list[Received] = field(default_factory=list)
     typed: list[str] = field(default_factory=list)
     said: list[Said] = field(default_factory=list)
 
-    def messages(self, kind: str) -> list[Told]:
+    def messages(self, kind: str) -> list[Received]:
         """Return the messages of a kind."""
-        return [told for told in self.told if told.message["type"] == kind]
+        return [received for received in self.received if received.message["type"] == kind]
 
     @property
     def picked(self) -> str | None:
@@ -73,7 +73,7 @@ class Visitor:
     def __init__(self, host: str, seed: int) -> None:
         self._host, self._rng = host, np.random.default_rng(seed)
         self.name = f"visitor{seed}"
-        self.stays: list[Stay] = []
+        self.interactions: list[Interaction] = []
         self.here = asyncio.Event()  # whether the server has said welcome once
 
     async def come_and_go(self, until: float) -> None:
@@ -83,59 +83,63 @@ class Visitor:
             await asyncio.wait_for(self.interact(), 300)
             await asyncio.sleep(self._rng.uniform(1, 3))
 
-    async def interact(self) -> Stay:
+    async def interact(self) -> Interaction:
         """Have one interaction, to the hand-over."""
         origin, address = f"http://{self._host}", f"ws://{self._host}/session"
         async with connect(address, origin=origin, compression=None, proxy=None) as line:  # type: ignore[arg-type]
             seed = int(self._rng.integers(2**31))
             await line.send(json.dumps({"type": "hello", "version": 1, "scene": "ambiguous", "seed": seed}))
-            stay = Stay(f"{self._rng.choice(list(KINDS))}-{self._rng.integers(1, 3)}")
-            self.stays.append(stay)
-            acting = asyncio.create_task(self._act(line, stay))
+            interaction = Interaction(f"{self._rng.choice(list(KINDS))}-{self._rng.integers(1, 3)}")
+            self.interactions.append(interaction)
+            acting = asyncio.create_task(self._act(line, interaction))
             try:
                 async for text in line:
-                    stay.told.append(Told(time.monotonic(), json.loads(text)))
+                    interaction.received.append(Received(time.monotonic(), json.loads(text)))
                     self.here.set()
-                    if stay.told[-1].message["type"] == "ended":
+                    if interaction.received[-1].message["type"] == "ended":
                         break
             finally:
                 acting.cancel()
                 with contextlib.suppress(asyncio.CancelledError):
                     await acting
-        return stay
+        return interaction
 
-    async def _act(self, line: ClientConnection, stay: Stay) -> None:
+    async def _act(self, line: ClientConnection, interaction: Interaction) -> None:
         asked, since = 0, time.monotonic() - PATIENCE
         while True:
-            questions = [told for told in stay.messages("say") if told.message["key"] == "asks"]
+            questions = [received for received in interaction.messages("say") if received.message["key"] == "asks"]
             if len(questions) > asked and time.monotonic() > questions[-1].at + AFTER_QUESTION:
                 asked, since = len(questions), time.monotonic()
-                about = [told.message["item"] for told in stay.messages("decided") if told.message["action"] == "point"]
-                await self._say(line, stay, "yes" if about[-1] == stay.wanted else "no")
-            elif self._may_ask(stay) and time.monotonic() > since + PATIENCE:
+                about = [
+                    received.message["item"]
+                    for received in interaction.messages("decided")
+                    if received.message["action"] == "point"
+                ]
+                await self._say(line, interaction, "yes" if about[-1] == interaction.wanted else "no")
+            elif self._may_ask(interaction) and time.monotonic() > since + PATIENCE:
                 since = time.monotonic()
-                await self._ask(line, stay)
+                await self._ask(line, interaction)
             await asyncio.sleep(0.05)
 
-    def _may_ask(self, stay: Stay) -> bool:
-        return bool(stay.told)
+    def _may_ask(self, interaction: Interaction) -> bool:
+        return bool(interaction.received)
 
-    async def _ask(self, line: ClientConnection, stay: Stay) -> None:
-        kind = stay.wanted.partition("-")[0]
+    async def _ask(self, line: ClientConnection, interaction: Interaction) -> None:
+        kind = interaction.wanted.partition("-")[0]
         form = str(self._rng.choice(REQUESTS))
-        await self._say(line, stay, f"{form.format(kind=kind, colour=KINDS[kind])}, says {self.name}")
+        await self._say(line, interaction, f"{form.format(kind=kind, colour=KINDS[kind])}, says {self.name}")
         if self._rng.random() < 0.5:
-            await self._point(line, stay)
+            await self._point(line, interaction)
 
-    async def _say(self, line: ClientConnection, stay: Stay, text: str) -> None:
-        stay.typed.append(text)
+    async def _say(self, line: ClientConnection, interaction: Interaction, text: str) -> None:
+        interaction.typed.append(text)
         await line.send(json.dumps({"type": "typed", "text": text}))
 
-    async def _point(self, line: ClientConnection, stay: Stay) -> None:
+    async def _point(self, line: ClientConnection, interaction: Interaction) -> None:
         """Point at what is wanted for two seconds, with the spread of the model."""
-        scene = stay.messages("welcome")[0].message["scene"]
+        scene = interaction.messages("welcome")[0].message["scene"]
         head = np.array(scene["head"])
-        (item,) = (item for item in scene["items"] if item["id"] == stay.wanted)
+        (item,) = (item for item in scene["items"] if item["id"] == interaction.wanted)
         place = np.array(item["position"]) + self._rng.normal(0, scene["sigma"], 3)
         for _ in range(round(2 * RAYS)):
             wrist = head + 0.6 * (place - head) / np.linalg.norm(place - head) + self._rng.normal(0, 0.01, 3)
@@ -153,26 +157,26 @@ class Speaker(Visitor):
         self._spoken, self._begun = 0.0, time.monotonic()
         self._next: deque[Saying] = deque()
 
-    async def _act(self, line: ClientConnection, stay: Stay) -> None:
+    async def _act(self, line: ClientConnection, interaction: Interaction) -> None:
         await line.send(json.dumps({"type": "microphone", "on": True}))
-        microphone = asyncio.create_task(self._sound(line, stay))
+        microphone = asyncio.create_task(self._sound(line, interaction))
         try:
-            await super()._act(line, stay)
+            await super()._act(line, interaction)
         finally:
             microphone.cancel()
 
-    def _may_ask(self, stay: Stay) -> bool:
-        return super()._may_ask(stay) and self._spoken <= self._share * (time.monotonic() - self._begun)
+    def _may_ask(self, interaction: Interaction) -> bool:
+        return super()._may_ask(interaction) and self._spoken <= self._share * (time.monotonic() - self._begun)
 
-    async def _ask(self, line: ClientConnection, stay: Stay) -> None:
-        kind = stay.wanted.partition("-")[0]
-        await self._say(line, stay, str(self._rng.choice([text for text in self._sayings if kind in text])))
+    async def _ask(self, line: ClientConnection, interaction: Interaction) -> None:
+        kind = interaction.wanted.partition("-")[0]
+        await self._say(line, interaction, str(self._rng.choice([text for text in self._sayings if kind in text])))
 
-    async def _say(self, line: ClientConnection, stay: Stay, text: str) -> None:  # noqa: ARG002
+    async def _say(self, line: ClientConnection, interaction: Interaction, text: str) -> None:  # noqa: ARG002
         self._next.append(self._sayings[text])
         self._spoken += self._sayings[text].speech
 
-    async def _sound(self, line: ClientConnection, stay: Stay) -> None:
+    async def _sound(self, line: ClientConnection, interaction: Interaction) -> None:
         """Send sound at the pace at which it would be heard."""
         due, rest, hiss = time.monotonic(), np.empty(0, np.int16), 0
         self._next.clear()
@@ -180,7 +184,7 @@ class Speaker(Visitor):
             if not len(rest) and self._next:
                 saying = self._next.popleft()
                 times = [due + end for end in (BEFORE, *saying.ends)]
-                stay.said += map(Said, saying.words, times, times[1:])
+                interaction.said += map(Said, saying.words, times, times[1:])
                 rest = saying.samples
             chunk, rest = rest[:CHUNK], rest[CHUNK:]
             if len(chunk) < CHUNK:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from visiting import PATIENCE, listening, served, visited
 
-from fetch_pomdp.study.participation import template
+from fetch_pomdp.user_study.config import template
 
 FOLDER = Path(__file__).parent
 TOKEN = secrets.token_urlsafe()

@@ -12,8 +12,16 @@ from hypothesis import strategies as st
 
 from fetch_pomdp import checks
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.documents import json_lines, read_json_lines, read_text, read_toml
-from fetch_pomdp.errors import EventError, InputError, ModelError, SceneError
+from fetch_pomdp.documents import (
+    LARGEST_TOML,
+    MOST_LEVELS,
+    json_lines,
+    parse_toml,
+    read_json_lines,
+    read_text,
+    read_toml,
+)
+from fetch_pomdp.errors import EventError, InputError, ModelError, SceneError, StudyError
 
 GOOD = """\
 # a comment
@@ -133,6 +141,49 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
 
 def read(content: bytes) -> list[dict[str, Any]]:
     return [dict(document.data) for document in json_lines(io.BytesIO(content), "x.jsonl", EventError)]
+
+
+DOTS = "a." * MOST_LEVELS + "a"
+TEXTS = (f'x = "{DOTS}"', f'y = """{DOTS}\\""" {DOTS}"""""', f"z = '{DOTS}' # {DOTS}", f"q = '''{DOTS}\n{DOTS}''''")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{DOTS} = 1",
+        f"[{DOTS}]",
+        f"[[{DOTS}]]",
+        f"x = {{y = 1, {DOTS} = 1}}",
+        f"x = [[{{{DOTS} = 1}}]]",
+        DOTS.replace(".", " .\t") + " = 1",
+        DOTS.replace("a", "'a'") + " = 1",
+        DOTS.replace("a", '"\\"."') + " = 1",
+        f"x = {{q = '''a'''', {DOTS} = 1, r = 'b'}}",  # a text that ends with a quote of its own
+        f'x = {{q = """a""""", {DOTS} = 1, r = "b"}}',
+    ],
+)
+def test_a_key_of_many_parts_is_not_parsed(text: str) -> None:
+    """tomllib takes time with the square of their number: 18 s for 30,000."""
+    with pytest.raises(StudyError, match=rf"^x\.toml:4: key with too many dots, expected at most {MOST_LEVELS} parts$"):
+        parse_toml(f'x = "{DOTS}"\n\n\n{text}', "x.toml", StudyError)
+
+
+def test_dots_of_texts_comments_and_numbers_are_no_key_s() -> None:
+    text = "\n".join(TEXTS) + "\nn = [" + "1.5, " * 40 + "]\n" + ".".join("abcdefgh") + " = 1\n"
+    data = parse_toml(text, "x.toml", StudyError).data
+    assert (data["x"], data["y"], data["z"]) == (DOTS, f'{DOTS}""" {DOTS}""', DOTS)
+    assert (data["q"], len(data["n"])) == (f"{DOTS}\n{DOTS}'", 40)
+
+
+def test_a_file_of_any_size_is_not_read_to_its_end(tmp_path: Path) -> None:
+    path = tmp_path / "large.toml"
+    path.write_bytes(b"#" * (LARGEST_TOML + 1))
+    with pytest.raises(StudyError, match=f"large.toml: file too large, expected at most {LARGEST_TOML} bytes"):
+        read_toml(path, StudyError)
+    path.write_bytes(b"#" * LARGEST_TOML)
+    assert read_toml(path, StudyError).data == {}
+    with pytest.raises(StudyError, match="file too large"):
+        read_toml("/dev/zero", StudyError)
 
 
 def test_json_lines_are_numbered_and_empty_ones_skipped() -> None:

@@ -15,6 +15,7 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 NAMES = [str(path.relative_to(PACKAGE)) for path in FILES]
 
 GROUND = {"errors"}
+UP_TO_STUDIES = GROUND | {"extras", "checks", "documents", "core", "files", "adapters", "study", "user_study"}
 CORE_LIBRARIES = {"numpy", "numba"}
 # A folder or module: what it may use of the package, and of third parties at module level (None: anything).
 ALLOWED: dict[str, tuple[set[str], set[str] | None]] = {
@@ -26,7 +27,8 @@ ALLOWED: dict[str, tuple[set[str], set[str] | None]] = {
     "files": (GROUND | {"checks", "documents", "core", "files"}, CORE_LIBRARIES),
     "adapters": (GROUND | {"extras", "checks", "documents", "core", "files", "adapters"}, CORE_LIBRARIES),
     "study": (GROUND | {"extras", "checks", "documents", "core", "files", "study"}, CORE_LIBRARIES),
-    "cli": (GROUND | {"extras", "checks", "documents", "core", "files", "adapters", "study", "cli"}, None),
+    "user_study": (UP_TO_STUDIES, CORE_LIBRARIES | {"sqlalchemy", "alembic"}),
+    "cli": (UP_TO_STUDIES | {"cli"}, None),
     "__init__": (GROUND | {"core"}, set()),
     "__main__": ({"cli"}, set()),
 }
@@ -46,14 +48,19 @@ def modules(node: ast.Import | ast.ImportFrom) -> list[str]:
     return [node.module or ""]
 
 
+def for_types(node: ast.AST) -> bool:
+    """Whether a node is what only a type checker reads."""
+    return isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
+
+
 def imports(tree: ast.AST) -> Iterator[tuple[str, bool]]:
-    """Yield each imported module, and whether it is imported at module level."""
+    """Yield each imported module, and whether it is imported at module level when the program runs."""
 
     def walk(node: ast.AST, top: bool) -> Iterator[tuple[str, bool]]:
         for child in ast.iter_child_nodes(node):
             if isinstance(child, ast.Import | ast.ImportFrom):
                 yield from ((module, top) for module in modules(child))
-            inside = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+            inside = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) or for_types(child)
             yield from walk(child, top and not inside)
 
     yield from walk(tree, top=True)
@@ -69,7 +76,7 @@ def test_imports_are_allowed(path: Path) -> None:
         if root == "fetch_pomdp":
             assert rest.partition(".")[0] in inside, f"{module} in {part}"
         elif root not in sys.stdlib_module_names:
-            free = libraries is None or (part == "adapters" and not top)
+            free = libraries is None or (part in {"adapters", "user_study"} and not top)
             assert free or root in (libraries or set()), f"{module} in {part}"
 
 
@@ -81,12 +88,15 @@ def f():
     import sounddevice
 if True:
     from a import b
+if TYPE_CHECKING:
+    import typed
 """
     assert list(imports(ast.parse(source))) == [
         ("torch.nn", True),
         ("fetch_pomdp.cli", True),
         ("sounddevice", False),
         ("a", True),
+        ("typed", False),
     ]
 
 

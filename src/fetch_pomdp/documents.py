@@ -18,6 +18,22 @@ from fetch_pomdp.errors import InputError
 
 Made = TypeVar("Made")
 
+LARGEST_TOML = 1_000_000  # bytes: thousands of items
+MOST_LEVELS = 16  # of a dotted key; tomllib takes time with the square of their number
+# Texts, to their end if there is one, and comments; what ends a key; a dot of a key.
+_TOML_PARTS = re.compile(
+    r"""
+      "{3} (?: [^"\\] | \\. | "(?!"") )*+ (?: "{3,5} )?+
+    | '{3} (?: [^'] | '(?!'') )*+ (?: '{3,5} )?+
+    | " (?: [^"\\\n] | \\. )*+ "?+
+    | ' [^'\n]*+ '?+
+    | \# [^\n]*+
+    | (?P<end> [\n=,\[\]{}] )
+    | (?P<dot> \. )
+    """,
+    re.DOTALL | re.VERBOSE,
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Document:
@@ -49,12 +65,26 @@ def read_raw(path: str | Path, error: type[InputError]) -> bytes:
 
 
 def read_toml(path: str | Path, error: type[InputError]) -> Document:
-    """Read a TOML file. Raises `error`, with the line, for broken TOML."""
-    return parse_toml(read_text(path, error), str(path), error)
+    """Read a TOML file. Raises `error` as `parse_toml`, and for a file that cannot be read."""
+    try:
+        with Path(path).open("rb") as stream:
+            raw = stream.read(LARGEST_TOML + 1)
+    except (OSError, ValueError) as cause:
+        raise error(_reason(cause), source=str(path)) from None
+    if len(raw) > LARGEST_TOML:
+        raise error(f"file too large, expected at most {LARGEST_TOML} bytes", source=str(path))
+    return parse_toml(_decoded(raw, str(path), 1, error), str(path), error)
 
 
 def parse_toml(text: str, source: str, error: type[InputError]) -> Document:
-    """Read TOML from a text; `source` is its name in messages. Raises `error`, with the line, for broken TOML."""
+    """Read TOML from a text; `source` is its name in messages.
+
+    Raises `error`, with the line, for broken TOML, a text beyond LARGEST_TOML and a key of more than MOST_LEVELS parts.
+    """
+    if len(text) > LARGEST_TOML:
+        raise error(f"text too large, expected at most {LARGEST_TOML} bytes", source=source)
+    if line := _line_of_long_key(text):
+        raise error(f"key with too many dots, expected at most {MOST_LEVELS} parts", source=source, line=line)
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as cause:
@@ -76,6 +106,19 @@ def parse_toml(text: str, source: str, error: type[InputError]) -> Document:
         return lines.get(field, 1)
 
     return Document(source, data, line_of)
+
+
+def _line_of_long_key(text: str) -> int | None:
+    """Return the line of the first key with more than MOST_LEVELS parts, None if there is none."""
+    dots = 0
+    for part in _TOML_PARTS.finditer(text):
+        if part["end"]:
+            dots = 0
+        elif part["dot"]:
+            dots += 1
+            if dots >= MOST_LEVELS:
+                return text.count("\n", 0, part.start()) + 1
+    return None
 
 
 def _toml_lines(text: str) -> dict[str, int]:

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from fetch_pomdp.adapters.store.store import Store
-from tests.adapters.store.made import PICKED, WAITED, enrolled, header
+from fetch_pomdp.user_study.store.store import Store
 from tests.cli.conftest import Run
+from tests.user_study.store.made import PICKED, WAITED, enrolled, header
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def test_list_prints_how_far_they_are(run: Run, url: str) -> None:
     ]  # fmt: skip
     code, out, err = run("participants", "list", "--database", url, "--study", "pilt")
     assert (code, out) == (2, "")
-    assert err == "fetch-pomdp: study: found nobody of 'pilt', expected people who take part\n"
+    assert err == "fetch-pomdp: study: nobody takes part in 'pilt' yet\n"
 
 
 def test_an_export_is_checked_and_reported(run: Run, url: str, tmp_path: Path) -> None:
@@ -62,7 +62,7 @@ def test_forget_deletes_one(run: Run, url: str) -> None:
     assert [one["person"] for one in left] == [0, 2, 3, 4]
     code, out, err = run("participants", "forget", people[1]["code"], "--database", url)
     assert (code, out) == (2, "")
-    assert err.endswith("code: found nobody with it, expected the code of somebody who takes part\n")
+    assert err.endswith("code: no participant has this code\n")
 
 
 def test_bad_input_is_one_line_and_code_2(tmp_path: Path) -> None:

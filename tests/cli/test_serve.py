@@ -8,23 +8,49 @@ from urllib.parse import parse_qs, urlsplit
 
 import pytest
 
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.cli.serve import address_of
-from fetch_pomdp.study.participation import load_participation
-from tests.adapters.web.participation.small import small_study
+from fetch_pomdp.user_study.config import load_user_study
+from fetch_pomdp.user_study.store.store import Store
 from tests.cli.conftest import Run
+from tests.user_study.small import small_study
 
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.0.2.1", "robot.example"])
 def test_beyond_loopback_a_token_is_needed(run: Run, host: str) -> None:
     code, _, error = run("serve", "--host", host)
     assert code == 2
-    assert f"--token: found none for {host}, expected one, such as --token " in error
+    assert f"--token: {host} needs a token, such as --token " in error
 
 
 def test_a_short_token_is_refused(run: Run) -> None:
     code, _, error = run("serve", "--token", "secret")
-    assert (code, error) == (2, "fetch-pomdp: --token: found 6 letters, expected 16 or more\n")
+    assert (code, error) == (2, "fetch-pomdp: --token: found 6 characters, expected 16 or more\n")
+
+
+@pytest.mark.parametrize("option", ["--token", "--researcher-token"])
+@pytest.mark.parametrize(
+    "token",
+    [
+        "a secret of many letters",
+        "ein-geheimes-wort-mit-ü",
+        "no-text-\udcff-at-all-is-this",
+        "tab\tbed-token-of-many",
+        "",
+    ],
+)
+def test_a_token_that_no_request_can_carry_is_refused(run: Run, option: str, token: str) -> None:
+    code, _, error = run("serve", option, token)
+    found = "expected ASCII letters, digits and punctuation, without spaces" if token else "found 0 characters"
+    assert (code, error.count("\n")) == (2, 1)
+    assert error.startswith(f"fetch-pomdp: {option}: {found}")
+
+
+def test_a_folder_that_cannot_be_made_is_said_in_a_line(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    for folder in (tmp_path / "file", tmp_path / "file" / "data", Path("/proc/data")):
+        code, _, error = run("serve", "--data", folder)
+        assert (code, error.splitlines()[-1].startswith(f"fetch-pomdp: --data: {folder}: ")) == (2, True)
+        assert error.endswith("expected a folder, or a place for one\n")
 
 
 def test_an_address_that_is_taken_is_said_in_a_line(run: Run) -> None:
@@ -55,15 +81,15 @@ def test_a_table_too_large_for_a_page_is_refused(run: Run, tmp_path: Path) -> No
 @pytest.mark.parametrize("option", ["--database", "--researcher-token"])
 def test_what_belongs_to_a_study_needs_one(run: Run, option: str) -> None:
     code, _, error = run("serve", option, "sqlite:///nowhere.db")
-    assert (code, error) == (2, f"fetch-pomdp: {option}: found no study, expected one beside it\n")
+    assert (code, error) == (2, f"fetch-pomdp: {option} needs --study\n")
 
 
 def test_a_study_has_a_database_and_no_folder(run: Run, tmp_path: Path) -> None:
     study = str(small_study(tmp_path))
     code, _, error = run("serve", "--study", study, "--data", tmp_path)
-    assert (code, error.startswith("fetch-pomdp: --data: found a folder beside --study")) == (2, True)
+    assert (code, error.startswith("fetch-pomdp: --data: a study is kept in its database")) == (2, True)
     code, _, error = run("serve", "--study", study, "--researcher-token", "short")
-    assert (code, error) == (2, "fetch-pomdp: --researcher-token: found 5 letters, expected 16 or more\n")
+    assert (code, error) == (2, "fetch-pomdp: --researcher-token: found 5 characters, expected 16 or more\n")
 
 
 def test_a_study_that_was_changed_is_refused_under_its_name(run: Run, tmp_path: Path) -> None:
@@ -73,13 +99,13 @@ def test_a_study_that_was_changed_is_refused_under_its_name(run: Run, tmp_path: 
     store.close()
     code, _, error = run("serve", "--study", small_study(tmp_path), "--database", url)
     assert code == 2
-    assert "study: found 'small' there with other contents (0123456789abcdef, not " in error
+    assert "study: 'small' was begun with other contents (0123456789abcdef, not " in error
 
 
 def test_the_template_is_a_study(run: Run, tmp_path: Path) -> None:
     code, printed, _ = run("participants", "template")
     (tmp_path / "own.toml").write_text(printed)
-    assert (code, load_participation(tmp_path / "own.toml").people) == (0, 16)
+    assert (code, load_user_study(tmp_path / "own.toml").people) == (0, 16)
 
 
 def test_a_token_of_any_letters_arrives_as_it_is() -> None:

@@ -14,8 +14,8 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
 
-from tests.adapters.web.participation.small import small_study
 from tests.e2e.conftest import PATIENCE, Server
+from tests.user_study.small import small_study
 
 pytestmark = pytest.mark.browser
 TOKEN = "a researcher's own secret"

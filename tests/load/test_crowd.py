@@ -78,20 +78,20 @@ def left_behind(served: Served, than: Spent) -> tuple[int, int]:
 
 
 def test_everybody_gets_something(people: list[Visitor]) -> None:
-    assert [visitor.name for visitor in people if visitor.stays[0].picked is None] == []
+    assert [visitor.name for visitor in people if visitor.interactions[0].picked is None] == []
 
 
 def test_who_types_gets_what_they_want(people: list[Visitor]) -> None:
-    got = [(visitor.stays[0].picked, visitor.stays[0].wanted) for visitor in people[SPEAKERS:]]
+    got = [(visitor.interactions[0].picked, visitor.interactions[0].wanted) for visitor in people[SPEAKERS:]]
     assert [pair for pair in got if pair[0] != pair[1]] == []
 
 
 def test_nobody_is_told_of_another(people: list[Visitor]) -> None:
-    sessions = [visitor.stays[0].messages("welcome")[0].message["session"] for visitor in people]
+    sessions = [visitor.interactions[0].messages("welcome")[0].message["session"] for visitor in people]
     assert len(set(sessions)) == PEOPLE
     for visitor in people:
-        told = [told.message for told in visitor.stays[0].told]
-        heard = {word for message in told if message["type"] == "belief" for word in message["heard"]}
+        received = [each.message for each in visitor.interactions[0].received]
+        heard = {word for message in received if message["type"] == "belief" for word in message["heard"]}
         names = {word for word in heard if word.startswith("visitor")}
         assert names == (set() if isinstance(visitor, Speaker) else {visitor.name})
 

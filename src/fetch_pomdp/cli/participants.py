@@ -8,19 +8,19 @@ import itertools
 import json
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Column, Table
 
-from fetch_pomdp.adapters.store.progress import Progress
-from fetch_pomdp.adapters.store.store import Store
 from fetch_pomdp.cli.options import Json, as_json
 from fetch_pomdp.errors import StoreError
-from fetch_pomdp.study.from_logs import trials_of
-from fetch_pomdp.study.participation import template
+
+if TYPE_CHECKING:
+    from fetch_pomdp.user_study.store.participants import Progress
+    from fetch_pomdp.user_study.store.store import Store
 
 app = typer.Typer(
     help="People who take part in a study over the page: how far they are, their data.", no_args_is_help=True
@@ -39,9 +39,7 @@ def show(database: Database = DATABASE, study: StudyName = None, json_lines: Jso
     with _store(database) as store:
         people = store.progress(study)
     if not people:
-        raise StoreError(
-            f"found nobody{f' of {study!r}' if study else ''}, expected people who take part", field="study"
-        )
+        raise StoreError(f"nobody takes part{f' in {study!r}' if study else ''} yet", field="study")
     if as_json(json_lines):
         for one in people:
             print(json.dumps(dataclasses.asdict(one)))
@@ -69,7 +67,7 @@ def export(
 ) -> None:
     """Write a study into a folder, which `fetch-pomdp study report DIR` reads: logs, tables, and sound where kept."""
     with _store(database) as store:
-        done = store.export(folder, study, scored=trials_of)
+        done = store.export(folder, study)
     more = f", {done.unfinished} unfinished, {done.practice} of practice"
     print(f"wrote {folder}: {done.study}, {done.people} people, {done.trials} trials{more}")
 
@@ -89,11 +87,15 @@ def forget(
 @app.command("template")
 def show_template() -> None:
     """Print a study with people to begin with, for serve --study (docs/study-with-people.md)."""
+    from fetch_pomdp.user_study.config import template
+
     print(template(), end="")
 
 
 @contextlib.contextmanager
 def _store(url: str) -> Iterator[Store]:
+    from fetch_pomdp.user_study.store.store import Store
+
     store = Store.existing(url)
     try:
         yield store

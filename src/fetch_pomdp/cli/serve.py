@@ -5,21 +5,20 @@ from __future__ import annotations
 import ipaddress
 import logging
 import secrets
+from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 from urllib.parse import quote
 
 import typer
 
-from fetch_pomdp.adapters.store.store import Store
-from fetch_pomdp.adapters.web.hall import Config
-from fetch_pomdp.adapters.web.participation.registry import Venue
-from fetch_pomdp.adapters.web.protocol import scene_asked_for
-from fetch_pomdp.adapters.web.server import serve
 from fetch_pomdp.cli.participants import DATABASE
 from fetch_pomdp.errors import InputError
-from fetch_pomdp.study.from_logs import trials_of
-from fetch_pomdp.study.participation import load_participation
+
+if TYPE_CHECKING:
+    from fetch_pomdp.adapters.web.ears import Speech
+    from fetch_pomdp.user_study.app import StudyApp
 
 Table = Annotated[
     str,
@@ -29,7 +28,7 @@ Table = Annotated[
 ]
 Host = Annotated[str, typer.Option(help="Address to listen at; anything but loopback needs a token.")]
 Port = Annotated[int, typer.Option(min=1, max=65535, help="Port to listen at.")]
-Token = Annotated[str | None, typer.Option(help="What a page must know to come in.  [default: none on loopback]")]
+Token = Annotated[str | None, typer.Option(help="The token that a page needs.  [default: none on loopback]")]
 Data = Annotated[Path | None, typer.Option(metavar="DIR", help="Keep each interaction in this folder, as it happens.")]
 Insight = Annotated[bool, typer.Option("--no-insight", help="Do not show what the robot believes, nor why it acts.")]
 
@@ -41,7 +40,7 @@ Database = Annotated[
     typer.Option(metavar="URL", help=f"Where a study's participants are kept.  [default: {DATABASE}]"),
 ]
 ResearcherToken = Annotated[
-    str | None, typer.Option(metavar="TOKEN", help="What the researcher's page must know.  [default: a new one]")
+    str | None, typer.Option(metavar="TOKEN", help="The token that the researcher's page needs.  [default: a new one]")
 ]
 
 BEGINNING = "ambiguous"
@@ -64,25 +63,29 @@ def serve_page(
 
     With --study people take part in a study there, from consent to completion code.
     """
-    if not _is_loopback(host) and token is None:
-        suggestion = secrets.token_urlsafe(16)
-        raise InputError(f"found none for {host}, expected one, such as --token {suggestion}", field="--token")
-    _long_enough(token, "--token")
+    from fetch_pomdp.adapters.web.connection_manager import ServerConfig
+    from fetch_pomdp.adapters.web.conversations import ConversationOpener
+    from fetch_pomdp.adapters.web.ears import speech_if_installed
+    from fetch_pomdp.adapters.web.page_messages import scene_asked_for
+    from fetch_pomdp.adapters.web.server import create_app, serve
+
+    _check_token(token, "--token", None if _is_loopback(host) else host)
+    _check_token(researcher_token, "--researcher-token")
+    _check_combination(scene, study, {"--data": data, "--database": database, "--researcher-token": researcher_token})
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
-    config = Config(scene=scene_asked_for(scene), token=token, data=data, insight=not no_insight)
-    if study is not None and scene != BEGINNING:
-        raise InputError(f"found {scene!r} beside --study, expected none: a study has tables of its own", field="SCENE")
-    venue = None if study is None else _venue(study, data, database, researcher_token)
-
-    def ready() -> None:
-        print(f"The robot is at {address_of(host, port, '', token)}  (Ctrl-C ends it)", flush=True)
-        if venue is not None:
-            print(f"The researcher's page is {address_of(host, port, 'researcher.html', venue.token)}", flush=True)
-
-    if venue is None and (database or researcher_token) is not None:
-        found = "--database" if database is not None else "--researcher-token"
-        raise InputError("found no study, expected one beside it", field=found)
-    serve(config, host, port, ready, venue=venue)
+    config, speech = ServerConfig(scene=scene_asked_for(scene), token=token), speech_if_installed()
+    addresses = [f"The robot is at {address_of(host, port, '', token)}  (Ctrl-C ends it)"]
+    opener: ConversationOpener | StudyApp
+    if study is None:
+        opener = ConversationOpener(data, insight=not no_insight, speech=speech)
+        app = create_app(config, opener, voice=speech.voice)
+    else:
+        secret = researcher_token or secrets.token_urlsafe(24)
+        opener = _study_app(study, database, secret, speech)
+        app = create_app(config, opener, voice=speech.voice, routes=opener.routes())
+        addresses.append(f"The researcher's page is {address_of(host, port, 'researcher.html', secret)}")
+    ready = partial(print, *addresses, sep="\n", flush=True)
+    serve(app, host, port, ready=ready, warm_up=opener.warm_up)
 
 
 def address_of(host: str, port: int, page: str, token: str | None) -> str:
@@ -91,19 +94,37 @@ def address_of(host: str, port: int, page: str, token: str | None) -> str:
     return f"http://{shown}:{port}/{page}" + (f"#token={quote(token, safe='')}" if token else "")
 
 
-def _venue(study: Path, data: Path | None, database: str | None, token: str | None) -> Venue:
-    if data is not None:
-        raise InputError(
-            "found a folder beside --study, expected none: a study is kept in its database", field="--data"
-        )
-    _long_enough(token, "--researcher-token")
-    programme = load_participation(study)
-    return Venue(programme, Store.open(database or DATABASE), token or secrets.token_urlsafe(24), trials_of)
+def _check_combination(scene: str, study: Path | None, options: Mapping[str, object]) -> None:
+    """Raise InputError for options that do not go together."""
+    if study is None:
+        for name in ("--database", "--researcher-token"):
+            if options[name] is not None:
+                raise InputError(f"{name} needs --study")
+    elif scene != BEGINNING:
+        raise InputError("a study has its own scenes; leave this out beside --study", field="SCENE")
+    elif options["--data"] is not None:
+        raise InputError("a study is kept in its database; leave this out beside --study", field="--data")
 
 
-def _long_enough(token: str | None, field: str) -> None:
-    if token is not None and len(token) < SHORTEST_TOKEN:
-        raise InputError(f"found {len(token)} letters, expected {SHORTEST_TOKEN} or more", field=field)
+def _study_app(study: Path, database: str | None, token: str, speech: Speech) -> StudyApp:
+    from fetch_pomdp.user_study.app import StudyApp
+    from fetch_pomdp.user_study.config import load_user_study
+    from fetch_pomdp.user_study.store.store import Store
+
+    config = load_user_study(study)
+    return StudyApp(config, Store.open(database or DATABASE), token, speech=speech)
+
+
+def _check_token(token: str | None, field: str, host: str | None = None) -> None:
+    """Raise InputError for a token that is easily guessed, that a request cannot carry, or that `host` lacks."""
+    if token is None:
+        if host is not None:
+            raise InputError(f"{host} needs a token, such as --token {secrets.token_urlsafe(16)}", field=field)
+        return
+    if not all("!" <= letter <= "~" for letter in token):
+        raise InputError("expected ASCII letters, digits and punctuation, without spaces", field=field)
+    if len(token) < SHORTEST_TOKEN:
+        raise InputError(f"found {len(token)} characters, expected {SHORTEST_TOKEN} or more", field=field)
 
 
 def _is_loopback(host: str) -> bool:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import queue
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
 
-from fetch_pomdp.adapters.web import conversation
+from fetch_pomdp.adapters.web import conversation as module
 from fetch_pomdp.adapters.web.conversation import Conversation
+from fetch_pomdp.adapters.web.ears import Speech
 from fetch_pomdp.adapters.web.journal import Journals
-from fetch_pomdp.adapters.web.protocol import Pointed, Typed
-from fetch_pomdp.adapters.web.tell import Told, with_insight
+from fetch_pomdp.adapters.web.page_messages import Pointed, Typed
+from fetch_pomdp.adapters.web.server_messages import Send, ServerMessage, with_insight
 from fetch_pomdp.core.live import LiveSession
 from fetch_pomdp.core.live.inbox import MOST_WORDS, Inbox
 from fetch_pomdp.core.scene import Scene
@@ -24,10 +25,10 @@ GESTURE = Pointed((0.0, 0.0, 1.6), (0.0675, 0.576, 1.447))
 
 
 @contextmanager
-def talking(tell: Callable[[Told], None] = lambda _: None) -> Iterator[Conversation]:
-    talk = Conversation(Journals(None).new(HEADER), tell, view=with_insight, voice=None, hearing=None)
-    yield talk
-    talk.close()
+def talking(send: Send = lambda _: None) -> Iterator[Conversation]:
+    conversation = Conversation(Journals(None).new(HEADER), send, view=with_insight, speech=Speech())
+    yield conversation
+    conversation.close()
 
 
 class Sessions:
@@ -43,12 +44,13 @@ class Sessions:
             def run(self) -> None:
                 stage.inboxes.append(self._inbox)
                 stage.begun.put(tuple(word.text for word in self._inbox.take_words(1e9)))
-                stage.end.acquire(timeout=10)
+                stage.end.acquire(timeout=120)
 
-        monkeypatch.setattr(conversation, "LiveSession", Session)
+        monkeypatch.setattr(module, "LiveSession", Session)
+        monkeypatch.setattr(module, "prepare", lambda *_: None)
 
     def next(self) -> tuple[str, ...]:
-        return self.begun.get(timeout=10)
+        return self.begun.get(timeout=120)
 
 
 @pytest.fixture
@@ -57,29 +59,29 @@ def sessions(monkeypatch: pytest.MonkeyPatch) -> Sessions:
 
 
 def test_a_conversation_rests_until_there_is_something_new(sessions: Sessions) -> None:
-    with talking() as talk:
-        talk.start()
-        talk.heed(Typed("marker"))
+    with talking() as conversation:
+        conversation.start()
+        conversation.handle(Typed("marker"))
         assert sessions.next() == ("marker",)
-        talk.heed(Typed("green"))
+        conversation.handle(Typed("green"))
         sessions.inboxes[-1].take_words(1e9)  # heard in the session
         sessions.end.release()
         with pytest.raises(queue.Empty):
             sessions.begun.get(timeout=0.3)
-        talk.heed(Typed("spoon"))
+        conversation.handle(Typed("spoon"))
         assert sessions.next() == ("spoon",)
         sessions.end.release()
 
 
 def test_what_came_too_late_for_a_session_begins_the_next_one(sessions: Sessions) -> None:
-    with talking() as talk:
-        talk.start()
-        talk.heed(Typed("marker"))
+    with talking() as conversation:
+        conversation.start()
+        conversation.handle(Typed("marker"))
         sessions.next()
-        talk.heed(Typed("green"))
+        conversation.handle(Typed("green"))
         sessions.end.release()
         assert sessions.next() == ("green",)
-        talk.heed(GESTURE)
+        conversation.handle(GESTURE)
         sessions.end.release()
         assert sessions.next() == ()
         assert len(sessions.inboxes[-1].pending().frames) == 1
@@ -87,19 +89,19 @@ def test_what_came_too_late_for_a_session_begins_the_next_one(sessions: Sessions
 
 
 def test_a_line_is_read_once_however_many_words_it_has() -> None:
-    told: list[Told] = []
-    with talking(told.append) as talk:
-        talk.heed(Typed("green marker please"))
+    told: list[ServerMessage] = []
+    with talking(told.append) as conversation:
+        conversation.handle(Typed("green marker please"))
     beliefs = [message["heard"] for message in told if message["type"] == "belief"]
     assert beliefs == [["green", "marker", "please"]]
 
 
 def test_a_step_holds_no_more_words_than_anybody_says(sessions: Sessions) -> None:
-    with talking() as talk:
+    with talking() as conversation:
         for _ in range(20):
-            talk.heed(Typed("a " * 150))
-        talk.heed(Typed("stop"))
-        talk.start()
+            conversation.handle(Typed("a " * 150))
+        conversation.handle(Typed("stop"))
+        conversation.start()
         words = sessions.next()
         sessions.end.release()
     assert len(words) == MOST_WORDS
@@ -107,13 +109,13 @@ def test_a_step_holds_no_more_words_than_anybody_says(sessions: Sessions) -> Non
 
 
 def test_when_it_is_over_nothing_is_kept_of_what_is_said(sessions: Sessions) -> None:
-    with talking() as talk:
-        talk.start()
-        talk.heed(Typed("marker"))
+    with talking() as conversation:
+        conversation.start()
+        conversation.handle(Typed("marker"))
         sessions.next()
-        talk.close()
-        talk.heed(Typed("spoon"))
-        talk.heed(GESTURE)
+        conversation.close()
+        conversation.handle(Typed("spoon"))
+        conversation.handle(GESTURE)
         pending = sessions.inboxes[-1].pending()
         sessions.end.release()
         assert (pending.words, pending.frames) == ((), ())

@@ -12,8 +12,8 @@ import pytest
 from starlette.testclient import TestClient
 
 import fetch_pomdp
-from fetch_pomdp.adapters.web.hall import Config
-from tests.adapters.web.test_server import HELLO, HOME, ORIGIN, SESSION, House, house_of, nonsense
+from fetch_pomdp.adapters.web.connection_manager import ServerConfig
+from tests.adapters.web.test_server import ENDLESS, HELLO, HOME, ORIGIN, SESSION, House, house_of, nonsense
 
 TELLTALES = ("Traceback", '.py"', "site-packages", "/lib/python", "\\\\lib\\\\", "fetch_pomdp/")
 COUNT = 3_000
@@ -71,7 +71,7 @@ def data(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def house(data: Path) -> Iterator[House]:
-    with house_of(Config(data=data, messages=1e9, sound=1e9)) as made:
+    with house_of(ServerConfig(limits=ENDLESS), data=data) as made:
         yield made
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from fetch_pomdp.adapters.web import ears as module
 from fetch_pomdp.adapters.web.ears import AGAIN, ECHO, MOST_EARLY, Ears
-from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
+from fetch_pomdp.adapters.web.page_messages import LARGEST_MESSAGE
 from fetch_pomdp.core.live import Inbox, SensorStatus, State
 from fetch_pomdp.errors import AudioError, MessageError
 
@@ -52,7 +52,7 @@ class Opening:
 
     def transcriber(self, vocabulary: Sequence[str]) -> Any:  # noqa: ARG002
         self.attempts.put(None)
-        if (error := self.ends.get(timeout=10)) is not None:
+        if (error := self.ends.get(timeout=120)) is not None:
             raise error
 
     def detector(self) -> Any:
@@ -63,7 +63,7 @@ class Opening:
         self.ears.hear(SOUND)
 
     def state(self) -> State:
-        return self.told.get(timeout=10).state
+        return self.told.get(timeout=120).state
 
 
 @pytest.fixture
@@ -87,7 +87,7 @@ def test_what_happens_before_they_are_open_counts_when_they_are(opening: Opening
     opening.ears.mute(1.0)
     opening.ears.end()
     opening.ends.put(None)
-    recorder = made.get(timeout=10)
+    recorder = made.get(timeout=120)
     opening.ears.mute(3.0)  # waits until they are open
     early = [("mute", 15.0, 16.0), ("mute", 0.0, 2.0), ("feed", 3200, 0.9), ("feed", 3200, 1.0), ("end",)]
     assert recorder.calls == [*early, ("mute", 15.0, 18.0)]
@@ -98,7 +98,7 @@ def test_a_flood_before_they_are_open_is_not_kept(opening: Opening) -> None:
     for number in range(2 * MOST_EARLY):
         opening.hear(0.1 * number)
     opening.ends.put(None)
-    recorder = made.get(timeout=10)
+    recorder = made.get(timeout=120)
     opening.ears.close()
     assert sum(call[0] == "feed" for call in recorder.calls) == MOST_EARLY
 
@@ -113,7 +113,7 @@ def test_ears_that_do_not_open_are_told_of_and_tried_again_with_later_sound(open
     assert opening.attempts.qsize() == 1, "not at once again"
     opening.hear(2.0 + AGAIN)
     opening.ends.put(None)
-    assert made.get(timeout=10).calls[0] == ("feed", 3200, 2.0 + AGAIN - 0.1)
+    assert made.get(timeout=120).calls[0] == ("feed", 3200, 2.0 + AGAIN - 0.1)
     assert opening.state() is State.OK
     assert opening.attempts.qsize() == 2
 

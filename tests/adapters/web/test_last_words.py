@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from typing import Any
 
-from fetch_pomdp.adapters.web.outbox import Outbox
-from fetch_pomdp.adapters.web.visit import Visit
+from fetch_pomdp.adapters.web.page_connection import ConnectionLimits, PageConnection
 
 
 class Gone:
@@ -14,41 +14,46 @@ class Gone:
 
     def __init__(self) -> None:
         self._left = [{"text": "one"}, {"text": "withdraw"}]
+        self._failed = asyncio.Event()
 
     async def send_text(self, _: str) -> None:
+        self._failed.set()
         raise RuntimeError("closed")
 
     async def receive(self) -> dict[str, Any]:
-        await asyncio.sleep(0.02)  # the send fails first
+        await self._failed.wait()  # the send fails first
+        await asyncio.sleep(0)
         return {"type": "websocket.receive", **self._left.pop(0)} if self._left else {"type": "websocket.disconnect"}
 
 
 class Listener:
-    """A party that notes what it is told, in order."""
+    """A session that notes what it takes, in order."""
 
     name = "listener"
 
     def __init__(self) -> None:
         self.heard = list[str | bytes]()
+        self._ended: Callable[[], None] = lambda: None
 
-    def start(self) -> None: ...
+    def start(self, ended: Callable[[], None]) -> None:
+        self._ended = ended
 
-    def take(self, message: str | bytes) -> None:
+    def receive(self, message: str | bytes) -> None:
         self.heard.append(message)
 
     def close(self) -> None:
         self.heard.append("closed")
-
-    def join(self, timeout: float) -> None: ...
+        self._ended()
 
 
 def test_the_last_messages_of_a_page_that_is_gone_are_taken() -> None:
-    party = Listener()
+    session, gone = Listener(), Gone()
 
-    async def visited() -> None:
-        outbox = Outbox(asyncio.get_running_loop())
-        outbox.put({"type": "belief"})
-        await Visit(Gone(), party, outbox, messages=10.0, sound=10.0).last()
+    async def connected() -> None:
+        socket: Any = gone
+        connection = PageConnection(socket, None, ConnectionLimits())
+        connection.queue.put({"type": "belief"})
+        await connection.run(session)
 
-    asyncio.run(visited())
-    assert party.heard == ["one", "withdraw", "closed"]
+    asyncio.run(connected())
+    assert session.heard == ["one", "withdraw", "closed"]

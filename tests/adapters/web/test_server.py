@@ -13,13 +13,20 @@ import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from fetch_pomdp.adapters.web.hall import Config
+from fetch_pomdp.adapters.web import robot
+from fetch_pomdp.adapters.web.connection_manager import ServerConfig
+from fetch_pomdp.adapters.web.conversations import ConversationOpener
+from fetch_pomdp.adapters.web.ears import speech_if_installed
+from fetch_pomdp.adapters.web.page_connection import ConnectionLimits
 from fetch_pomdp.adapters.web.server import create_app
 
 HOME = "http://127.0.0.1:8000"
 ORIGIN = {"origin": HOME}
 SESSION = "ws://127.0.0.1:8000/session"  # the test client calls a relative address testserver
 HELLO = {"type": "hello", "version": 1, "planner": "threshold"}
+USUAL = ServerConfig()
+FOR_EVER = 1e6  # s
+ENDLESS = ConnectionLimits(messages=1e9, sound=1e9)
 
 
 class Page:
@@ -57,8 +64,15 @@ class House:
 
 
 @contextmanager
-def house_of(config: Config) -> Iterator[House]:
-    with TestClient(create_app(config), base_url=HOME) as client:
+def house_of(
+    config: ServerConfig = USUAL,
+    *,
+    data: Path | None = None,
+    insight: bool = True,
+) -> Iterator[House]:
+    speech = speech_if_installed()
+    app = create_app(config, ConversationOpener(data, insight=insight, speech=speech), voice=speech.voice)
+    with TestClient(app, base_url=HOME) as client:
         house = House(client)
         yield house
         for page in house.pages:
@@ -67,7 +81,7 @@ def house_of(config: Config) -> Iterator[House]:
 
 @pytest.fixture
 def house() -> Iterator[House]:
-    with house_of(Config()) as made:
+    with house_of() as made:
         yield made
 
 
@@ -112,7 +126,7 @@ def test_a_calibrated_camera_sets_the_spread_of_pointing(house: House) -> None:
 def test_a_page_is_told_the_table_to_begin_with(client: TestClient) -> None:
     assert client.get("/table.json").json() == {"scene": "ambiguous"}
     own = {"toml": 'head = [0, 0, 1.6]\n[[items]]\nid = "cup"\nposition = [0, 3, 0.7]\nvocabulary = ["cup"]\n'}
-    with house_of(Config(scene=own)) as house:
+    with house_of(ServerConfig(scene=own)) as house:
         welcome = house.page(**house.client.get("/table.json").json()).next("welcome")
         assert [item["id"] for item in welcome["scene"]["items"]] == ["cup"]
 
@@ -149,7 +163,7 @@ def test_a_page_of_another_site_may_not_talk_to_it(client: TestClient, headers: 
 
 
 def test_a_token_is_needed_where_there_is_one() -> None:
-    with house_of(Config(token="a secret of many letters")) as house:
+    with house_of(ServerConfig(token="a secret of many letters")) as house:
         page = house.page(token="a guess")
         assert "token" in page.next("error")["message"]
         with pytest.raises(WebSocketDisconnect):
@@ -220,7 +234,7 @@ def test_pointing_alone_begins_an_interaction(house: House) -> None:
 
 
 def test_who_may_not_look_into_the_robot_s_mind_is_told_nothing_of_it() -> None:
-    with house_of(Config(insight=False)) as house:
+    with house_of(insight=False) as house:
         page = house.page()
         assert page.next("welcome")["belief"] is None
         page.send({"type": "typed", "text": "hand me the green marker"})
@@ -228,7 +242,8 @@ def test_who_may_not_look_into_the_robot_s_mind_is_told_nothing_of_it() -> None:
         assert page.next("decided", action="point").keys() == {"type", "t", "action", "item"}
 
 
-def test_a_hand_over_can_be_stopped(house: House) -> None:
+def test_a_hand_over_can_be_stopped(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(robot, "GRASP", FOR_EVER)
     page = house.page(planner="never")
     page.send({"type": "typed", "text": "green marker expo pen"})
     item = page.next("decided", action="pick")["item"]
@@ -251,13 +266,14 @@ def test_two_people_hear_nothing_of_each_other(house: House) -> None:
         assert belief[f"{word}-1"] > 2 * belief[f"{absent}-1"]
 
 
-def test_who_comes_back_goes_on_where_they_were(tmp_path: Path) -> None:
-    with house_of(Config(data=tmp_path)) as house:
+def test_who_comes_back_goes_on_where_they_were(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with house_of(data=tmp_path) as house:
         page = house.page()
         secret = page.next("welcome")["resume"]
         page.send({"type": "typed", "text": "green marker"})
         asked = page.next("action", action="point")["item"]
-    with house_of(Config(data=tmp_path)) as house:  # another server
+        monkeypatch.setattr(robot, "ARM", FOR_EVER)  # however long it takes to leave, no more is asked
+    with house_of(data=tmp_path) as house:  # another server
         page = house.page(resume=secret, scene="unambiguous")
         welcome = page.next("welcome")
         assert (welcome["resumed"], welcome["scene_name"]) == (True, "ambiguous")
@@ -288,18 +304,18 @@ def test_who_comes_back_elsewhere_takes_the_conversation_along(house: House) -> 
 
 
 def test_more_people_than_there_is_room_for_are_told_so() -> None:
-    with house_of(Config(most_people=1)) as house:
+    with house_of(ServerConfig(most_people=1)) as house:
         page = house.page()
         page.next("welcome")
         refused = house.page()
-        assert "people" in refused.next("error")["message"]
+        assert refused.next("error")["message"] == "server full (1 of 1); try again later"
         with pytest.raises(WebSocketDisconnect) as left:
             refused.next("nothing")
         assert left.value.code == 1013, "the page tries again after that"
 
 
 def test_who_sends_too_much_is_not_heard_and_then_let_go() -> None:
-    with house_of(Config(messages=5.0)) as house:
+    with house_of(ServerConfig(limits=ConnectionLimits(messages=0.0))) as house:
         page = house.page()
         page.next("welcome")
         for _ in range(230):
@@ -328,7 +344,7 @@ def nonsense(rng: random.Random) -> str:
 
 def test_ten_thousand_malformed_messages_and_nothing_dies() -> None:
     rng, count = random.Random(0), 10_000
-    with house_of(Config(messages=1e9, sound=1e9)) as house:
+    with house_of(ServerConfig(limits=ENDLESS)) as house:
         witness, page = house.page(), house.page()
         for each in (witness, page):
             each.next("welcome")

@@ -2,7 +2,7 @@
 
 Choice: nothing is decided before the person has said or shown something, nor after IDLE seconds in which they did not:
 a robot that speaks to an empty room helps nobody, and the time of an interaction begins with the request (Section IV).
-What wakes the robot is heard to its end before the first decision, which is otherwise one about nobody's request.
+What wakes the robot is heard to its end before the first decision, which would otherwise be about nobody's request.
 """
 
 from __future__ import annotations
@@ -12,13 +12,12 @@ import logging
 import threading
 from collections.abc import Callable
 
-from fetch_pomdp.adapters.speech.espeak import Voice
 from fetch_pomdp.adapters.speech.stream import listened_for
-from fetch_pomdp.adapters.web.ears import Ears, Hearing
+from fetch_pomdp.adapters.web.ears import Ears, Hearing, Speech
 from fetch_pomdp.adapters.web.journal import Journal
-from fetch_pomdp.adapters.web.protocol import Message, Microphone, Pointed, Typed, Typing, message_from_text
+from fetch_pomdp.adapters.web.page_messages import Microphone, PageMessage, Pointed, Typed, Typing, read_page_message
 from fetch_pomdp.adapters.web.robot import ARM, SPEAK, PageRobot
-from fetch_pomdp.adapters.web.tell import Told, View, complaint, saying, sensor_status
+from fetch_pomdp.adapters.web.server_messages import BROKEN, Send, View, error_message, say_message, status_message
 from fetch_pomdp.core.events import Event
 from fetch_pomdp.core.interaction import Timing
 from fetch_pomdp.core.live import LIVE, Did, Ended, Heard, Inbox, LiveRobot, LiveSession, RealClock, Update
@@ -35,22 +34,21 @@ TIMING: Timing = dataclasses.replace(
 
 
 class Conversation:
-    """An interaction that rests while its person is silent.
+    """A PageSession: an interaction that rests while its person is silent.
 
-    tell: takes messages, from any thread, and returns soon. body: makes the robot, given what says a sentence.
+    body: makes the robot, given the function that says a sentence.
     """
 
     def __init__(
         self,
         journal: Journal,
-        tell: Callable[[Told], None],
+        send: Send,
         *,
         view: View,
-        voice: Voice | None,
-        hearing: Hearing | None,
+        speech: Speech,
         body: Callable[[Callable[[str], None]], LiveRobot] = PageRobot,
     ) -> None:
-        self._journal, self._tell, self._view, self._voice = journal, tell, view, voice
+        self._journal, self._send, self._view, self._voice = journal, send, view, speech.voice
         self.clock = RealClock(journal.time)
         self._agent = journal.agent()
         self._robot = body(self._say)
@@ -60,15 +58,17 @@ class Conversation:
         self._inbox = Inbox()
         self._inbox.subscribe(lambda _: self._wake())
         self._session = self._rest()
-        self._ears = None if hearing is None else self._ears_of(hearing)
+        self._ears = None if speech.hearing is None else self._ears_of(speech.hearing)
+        self._ended: Callable[[], None] = lambda: None
         self._thread = threading.Thread(target=self._run, name=f"conversation {journal.name[:8]}", daemon=True)
 
-    def start(self) -> None:
-        """Begin, in a thread."""
+    def start(self, ended: Callable[[], None] = lambda: None) -> None:
+        """Start, in a thread, which calls `ended` when the journal is closed."""
+        self._ended = ended
         self._thread.start()
 
     def wake(self) -> None:
-        """Let the robot go on, though nothing was said or shown yet."""
+        """Let the robot go on although nothing was said or shown yet."""
         self._came.set()
 
     def close(self) -> None:
@@ -80,23 +80,22 @@ class Conversation:
             self._ears.close()
 
     def join(self, timeout: float) -> None:
-        """Wait until the thread has ended, and close the journal."""
+        """Wait until the thread has ended, at most `timeout` s."""
         self._thread.join(timeout)
-        self._journal.close()
 
     @property
     def name(self) -> str:
         """The name of its journal."""
         return self._journal.name
 
-    def take(self, message: str | bytes) -> None:
-        """Take what a page sent. Raises InputError for what is no message."""
-        self.heed(message if isinstance(message, bytes) else message_from_text(message))
+    def receive(self, message: str | bytes) -> None:
+        """Take what a page sent. Raises InputError if it is invalid."""
+        self.handle(message if isinstance(message, bytes) else read_page_message(message))
 
-    def heed(self, message: Message | bytes) -> None:
-        """Hear or see what a person says or shows; when the interaction is over, nothing any more.
+    def handle(self, message: PageMessage | bytes) -> None:
+        """Hear or see what a person says or shows; nothing once the interaction is over.
 
-        Raises MessageError for hello, and for sound where there are no ears.
+        Raises MessageError for hello, and for sound where speech recognition is not installed.
         """
         if isinstance(message, bytes):
             self._hear(message)
@@ -109,9 +108,9 @@ class Conversation:
         elif isinstance(message, Pointed):
             self._point(Frame(self.clock.now(), message.head, (message.wrist,)))
         elif isinstance(message, Microphone):
-            self._hush(message)
+            self._microphone(message)
         else:
-            raise MessageError("found hello again, expected it once", field="type")
+            raise MessageError("hello again, expected it once", field="type")
 
     def _type(self, text: str) -> None:
         now = self._heard_at = self.clock.now()
@@ -130,16 +129,16 @@ class Conversation:
 
     def _hear(self, pcm: bytes) -> None:
         if self._ears is None:
-            raise MessageError("found sound, expected none: this server has no ears")
+            raise MessageError("this server has no speech recognition")
         self._ears.hear(pcm)
 
-    def _hush(self, microphone: Microphone) -> None:
+    def _microphone(self, microphone: Microphone) -> None:
         if self._ears is not None and not microphone.on:
             self._ears.end()
 
     def _ears_of(self, hearing: Hearing) -> Ears:
         words = listened_for(self._agent.scene)
-        return Ears(hearing, words, self._inbox, self.clock.now, lambda status: self._tell(sensor_status(status)))
+        return Ears(hearing, words, self._inbox, self.clock.now, lambda status: self._send(status_message(status)))
 
     def _rest(self) -> LiveSession:
         listen, clock = self._listen, self.clock
@@ -161,24 +160,26 @@ class Conversation:
                 self._came.clear()
                 self._wake()  # what the session has not taken goes on with it; what it has begins nothing
         except Exception as error:
-            logger.exception("a conversation broke off")
-            self._tell(complaint(error, "broken"))
+            logger.exception("a conversation failed")
+            self._send(error_message(error, BROKEN))
         self._over.set()
         if self._ears is not None:
             self._ears.close()
+        self._journal.close()
+        self._ended()
 
     def _prepare(self) -> None:
-        self._tell({"type": "status", "sensor": "planner", "state": "slow", "text": "The robot is getting ready."})
+        self._send({"type": "status", "sensor": "planner", "state": "slow", "text": "The robot is getting ready."})
         prepare(self._agent.planner, self._agent.problem)
-        self._tell({"type": "status", "sensor": "planner", "state": "ok", "text": "The robot is ready."})
+        self._send({"type": "status", "sensor": "planner", "state": "ok", "text": "The robot is ready."})
 
     def _say(self, sentence: str) -> None:
         if self._voice is not None and self._ears is not None:
             self._ears.mute(self._voice.seconds(sentence))
-        self._tell(saying(sentence, audible=self._voice is not None))
+        self._send(say_message(sentence, audible=self._voice is not None))
 
     def _listen(self, update: Update) -> None:
-        """Write down what has happened, then tell it: what a page has seen is never lost."""
+        """Write down what has happened, then send it: what a page has seen is never lost."""
         if self._over.is_set() or (isinstance(update, Ended) and update.picked is None):
             return
         if isinstance(update, Did | Heard) and not self._written(update.event):
@@ -187,18 +188,18 @@ class Conversation:
             self._heard_at = self.clock.now()
         if isinstance(update, Heard) and self.clock.now() - self._heard_at > IDLE:
             self._session.close()
-        told = self._view(update, self._agent)
-        if told is not None:
-            self._tell(told)
+        message = self._view(update, self._agent)
+        if message is not None:
+            self._send(message)
 
     def _written(self, event: Event) -> bool:
-        """Write an event down; a conversation that cannot be written down any more ends."""
+        """Write an event down; a conversation whose journal fails ends."""
         try:
             self._journal.write(event)
         except Exception as error:
-            logger.exception("a journal broke")
+            logger.exception("a journal failed")
             self._over.set()
             self._session.close()
-            self._tell(complaint(error, "broken"))
+            self._send(error_message(error, BROKEN))
             return False
         return True

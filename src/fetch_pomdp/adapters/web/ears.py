@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from fetch_pomdp.adapters.speech.espeak import Voice
@@ -12,7 +13,7 @@ from fetch_pomdp.adapters.speech.silero import Silero, model
 from fetch_pomdp.adapters.speech.stream import StreamingRecognizer
 from fetch_pomdp.adapters.speech.utterances import Detector
 from fetch_pomdp.adapters.speech.worker import SphinxProcess
-from fetch_pomdp.adapters.web.protocol import LARGEST_MESSAGE
+from fetch_pomdp.adapters.web.page_messages import LARGEST_MESSAGE
 from fetch_pomdp.core.live import Inbox, SensorStatus, State
 from fetch_pomdp.core.live.vitals import TEXTS
 from fetch_pomdp.errors import AudioError, MessageError, MissingExtraError
@@ -45,21 +46,34 @@ class Hearing:
 
 
 def hearing_if_installed() -> Hearing | None:
-    """Return the ears of a server, or None where what they need is not installed."""
+    """Return what all ears of a server share, None if it is not installed."""
     try:
         return Hearing()
     except MissingExtraError as error:
-        logger.warning("nobody is heard, all must type: %s", error)
+        logger.warning("no speech recognition, people must type: %s", error)
         return None
 
 
 def voice_if_installed() -> Voice | None:
-    """Return the robot's voice, or None where what it needs is not installed."""
+    """Return the robot's voice, None if it is not installed."""
     try:
         return Voice()
     except (MissingExtraError, AudioError) as error:
-        logger.warning("the browser's own voice speaks for the robot: %s", error)
+        logger.warning("no voice, the browser's own is used: %s", error)
         return None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Speech:
+    """What a server has of speech; None for what is not installed."""
+
+    voice: Voice | None = None
+    hearing: Hearing | None = None
+
+
+def speech_if_installed() -> Speech:
+    """Return the voice and the ears of a server, as far as what they need is installed."""
+    return Speech(voice=voice_if_installed(), hearing=hearing_if_installed())
 
 
 class Early:
@@ -71,22 +85,22 @@ class Early:
         self._ended = False
 
     def hear(self, pcm: bytes, begin: float) -> None:
-        """Keep sound, of a flood the first."""
+        """Keep sound; of too much the first."""
         if len(self._sound) < MOST_EARLY:
             self._sound.append((pcm, begin))
         self._ended = False
 
     def mute(self, begin: float, end: float) -> None:
-        """Keep when the robot itself spoke; what was over before there was sound is of no matter."""
+        """Keep when the robot itself spoke; what was over before there was sound does not matter."""
         since = self._sound[0][1] if self._sound else begin
         self._muted = [stretch for stretch in self._muted if stretch[1] > since] + [(begin, end)]
 
     def end(self) -> None:
-        """Know that no sound follows for now."""
+        """Note that no sound follows for now."""
         self._ended = True
 
     def forget_sound(self) -> None:
-        """Keep no sound that nobody can hear any more."""
+        """Drop the sound; nobody can hear it any more."""
         self._sound = []
 
     def replay(self, recognizer: StreamingRecognizer) -> None:
@@ -122,7 +136,10 @@ class Ears:
         self._next = 0.0  # s, when they may be opened
 
     def hear(self, pcm: bytes) -> None:
-        """Take 16-bit mono sound of 16 kHz that ended now. Raises MessageError for none and for half a sample."""
+        """Take 16-bit mono sound of 16 kHz that ended now.
+
+        Raises MessageError if it is empty, too long or ends in half a sample.
+        """
         if len(pcm) % 2 or not 0 < len(pcm) <= LARGEST_MESSAGE:
             expected = f"expected an even number, from 2 to {LARGEST_MESSAGE}"
             raise MessageError(f"found {len(pcm)} bytes of sound, {expected}")
@@ -141,7 +158,7 @@ class Ears:
                 self._early.hear(pcm, begin)
 
     def end(self) -> None:
-        """Know that no sound follows for now."""
+        """Note that no sound follows for now."""
         with self._lock:
             (self._recognizer or self._early).end()
 
@@ -152,7 +169,7 @@ class Ears:
             (self._recognizer or self._early).mute(now, now + seconds + ECHO)
 
     def close(self) -> None:
-        """Hear nothing any more."""
+        """Stop hearing."""
         with self._lock:
             self._closed = True
             if self._recognizer is not None:
@@ -162,7 +179,7 @@ class Ears:
         try:
             transcriber, detector = self._hearing.process.transcriber(self._vocabulary), self._hearing.detector()
         except Exception:
-            logger.exception("the ears do not open")
+            logger.exception("speech recognition does not start")
             self._failed()
             return
         with self._lock:

@@ -15,7 +15,7 @@ from typing import Protocol
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
-from fetch_pomdp.errors import EventError
+from fetch_pomdp.errors import EventError, InputError
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.recordings import EventLog
 
@@ -38,7 +38,7 @@ class Sink(Protocol):
 class Journal:
     """One interaction: what it is about, and its events, in memory and in a sink if there is one.
 
-    clock: what (s) the interaction's clock showed when its person left, where that is known.
+    clock: the time (s) on the interaction's clock when its person left, where that is known.
     """
 
     secret: str
@@ -49,7 +49,7 @@ class Journal:
 
     @property
     def name(self) -> str:
-        """The name under which the journal is found, which lets nobody in."""
+        """The name under which the journal is found; it lets nobody in."""
         return name_of(self.secret)
 
     @property
@@ -65,7 +65,7 @@ class Journal:
         return self.header.scene.items[last.action.item].id if over else None  # type: ignore[union-attr]
 
     def agent(self) -> Agent:
-        """Return an agent that has lived through all of it."""
+        """Return an agent that has taken in all of it."""
         agent = self.header.agent()
         for event in self.events:
             agent.take(event)
@@ -90,13 +90,20 @@ def name_of(secret: str) -> str:
 
 
 class Journals:
-    """All journals: files in a folder, or without one the last ones in memory."""
+    """All journals: files in a folder, or without one the last ones in memory.
+
+    Raises InputError for a folder that cannot be made.
+    """
 
     def __init__(self, folder: Path | None) -> None:
         self._folder = folder
         self._kept: OrderedDict[str, Journal] = OrderedDict()
         if folder is not None:
-            folder.mkdir(parents=True, exist_ok=True)
+            try:
+                folder.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                found = error.strerror or error
+                raise InputError(f"{folder}: {found}, expected a folder, or a place for one", field="--data") from None
 
     def new(self, header: Header) -> Journal:
         """Begin a journal. Raises EventError if its file cannot be written."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from fetch_pomdp.adapters.web.tell import ASKS, HANDS_OVER
+from fetch_pomdp.adapters.web.server_messages import ASKS, HANDS_OVER
 from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.core.scene import Item
 
@@ -16,7 +16,7 @@ CARRY = 1.6  # s, from there to the person
 
 
 class PageRobot:
-    """A LiveRobot. say: sends a sentence to the page, which knows of the movements from the decisions."""
+    """A LiveRobot. say: sends a sentence to the page, which draws the movements from the decisions."""
 
     def __init__(self, say: Callable[[str], None]) -> None:
         self._say = say

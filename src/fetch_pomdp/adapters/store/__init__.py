@@ -1,1 +1,0 @@
-"""The database of a study's participants, their trials and answers: SQLite, or PostgreSQL."""

@@ -1,0 +1,121 @@
+"""What the server sends to a page, as JSON objects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from fetch_pomdp.core.action import Wait
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.explain import even
+from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED, texts
+from fetch_pomdp.core.language.unigram import split
+from fetch_pomdp.core.language.words import COURTESY
+from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.errors import EventError, InputError, StoreError
+from fetch_pomdp.files.decisions import decision_to_json, phrase_to_json
+from fetch_pomdp.files.events import action_to_json, event_to_json
+
+ServerMessage: TypeAlias = dict[str, Any]
+Send: TypeAlias = Callable[[ServerMessage], None]  # from any thread; returns soon
+View: TypeAlias = Callable[[Update, Agent], ServerMessage | None]  # what a page is told of an update
+
+ASKS, HANDS_OVER = "This one?", "Here you are."
+BROKEN = "broken"  # code of an error: the session has ended, and its page is disconnected
+# All that the robot says; the page has these sentences in its languages, the server as sound.
+SENTENCES = {
+    "asks": ASKS,
+    "hands_over": HANDS_OVER,
+    "listening": LISTENING,
+    "failed": FAILED,
+    "objected": OBJECTED,
+}
+_KEYS = {sentence: key for key, sentence in SENTENCES.items()}
+
+
+def scene_to_json(scene: Scene) -> ServerMessage:
+    """Return the table as a page draws it: items, head, and the noise of pointing (rad)."""
+    fields = scene.to_mapping()
+    return {**fields, "sigma": scene.model.sigma, "threshold": scene.model.gesture_threshold}
+
+
+def say_message(sentence: str, *, audible: bool) -> ServerMessage:
+    """Return a sentence of the robot, with the address of its sound if there is one."""
+    key = _KEYS.get(sentence)
+    audio = f"voice/{key}.wav" if audible and key is not None else None
+    return {"type": "say", "key": key, "text": sentence, "audio": audio}
+
+
+def belief_by_id(belief: Vector, scene: Scene) -> dict[str, float]:
+    """Return a belief, (n_items,), by the items' ids."""
+    return dict(zip((item.id for item in scene.items), belief.tolist(), strict=True))
+
+
+def with_insight(update: Update, agent: Agent) -> ServerMessage | None:
+    """Return an update as a message, with what the robot believes and why; None if there is nothing to tell."""
+    if isinstance(update, BeliefChanged):
+        return {**_changed(update), "belief": belief_by_id(update.belief, agent.scene), "even": even(update.belief)}
+    if isinstance(update, Decided):
+        why = update.decision.explanation
+        phrase = None if why is None else phrase_to_json(why.phrase())
+        fields = decision_to_json(update.decision, agent.scene)
+        return {"type": "decided", "t": update.time, **fields, "phrase": phrase}
+    return _outward(update, agent)
+
+
+def without_insight(update: Update, agent: Agent) -> ServerMessage | None:
+    """Return an update as a message without beliefs and reasons; None if there is nothing to tell."""
+    if isinstance(update, BeliefChanged):
+        return _changed(update)
+    if isinstance(update, Decided):
+        return decided_message(update, agent)
+    return _outward(update, agent)
+
+
+def decided_message(update: Decided, agent: Agent) -> ServerMessage:
+    """Return the action that begins, without its reasons."""
+    return {"type": "decided", "t": update.time, **action_to_json(update.decision.action, agent.scene)}
+
+
+def _changed(update: BeliefChanged) -> ServerMessage:
+    return {"type": "belief", "t": update.time, "provisional": update.provisional, "heard": list(update.words)}
+
+
+def _outward(update: Did | Heard | SensorStatus | Ended, agent: Agent) -> ServerMessage | None:
+    if isinstance(update, Did | Heard):
+        return event_message(update.event, agent)
+    if isinstance(update, SensorStatus):
+        return status_message(update)
+    return {"type": "ended", "picked": update.picked}
+
+
+def status_message(update: SensorStatus) -> ServerMessage:
+    """Return the state of a sensor."""
+    return {"type": "status", "sensor": update.name, "state": update.state.value, "text": update.text}
+
+
+def event_message(event: Event, agent: Agent) -> ServerMessage | None:
+    """Return an event of the log as a message, None for a finished wait and for an observation of nothing."""
+    if isinstance(event, Acted):
+        if isinstance(event.action, Wait):
+            return None
+        return {"type": "action", "outcome": event.outcome.value, **event_to_json(event, agent.scene)}
+    if not event.observation.words and event.observation.ray is None:
+        return None
+    parts = split(event.observation.words, agent.problem)
+    unknown = [word for word in parts.unknown if word not in COURTESY]
+    understood = bool(parts.base or parts.meaning)
+    fields = event_to_json(event, agent.scene)
+    if event.words:
+        fields["observation"]["utterance"] = " ".join(texts(event.words))  # as it was heard, not as it was read
+    return {"type": "observed", "unknown": unknown, "understood": understood, **fields}
+
+
+def error_message(error: Exception, code: str = "refused") -> ServerMessage:
+    """Return an error as a page is told of it; one that the page did not cause is not described."""
+    caused_by_page = isinstance(error, InputError) and not isinstance(error, EventError | StoreError)
+    text = str(error) if caused_by_page else "something went wrong on the server"
+    return {"type": "error", "code": code, "message": text}
