@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
-from fetch_pomdp.cli.options import Seed, warm_up
+from fetch_pomdp.cli.options import Seed
 from fetch_pomdp.cli.progress import trials_bar
+from fetch_pomdp.cli.terminal import Terminal
+from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.study import curve_plots, prices
@@ -109,7 +110,7 @@ def _study(config: Path | None, seed: int | None) -> Study:
 def _warm_up(study: Study) -> None:
     for name, paradigm in study.paradigms.items():
         first = next(iter(study.layouts))
-        warm_up(planner_named(paradigm.planner, **paradigm.parameters), Problem(study.scene(first, name)))
+        prepare(planner_named(paradigm.planner, **paradigm.parameters), Problem(study.scene(first, name)))
 
 
 def _write(table: Table, path: Path) -> None:
@@ -124,7 +125,7 @@ def _draw(figure: Any, stem: Path) -> None:
 
 
 def _tell(checked: list[Hypothesis], name: str) -> None:
-    console = Console(highlight=False, soft_wrap=True)
+    console = Terminal(soft_wrap=True)
     for hypothesis in checked:
         for clause in hypothesis.clauses:
             console.print(f"{hypothesis.name}: {words.verdict(clause, prices.judge(name))}", markup=False)
