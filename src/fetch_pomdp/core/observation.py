@@ -7,18 +7,39 @@ from typing import NamedTuple
 
 from numpy.random import Generator
 
+from fetch_pomdp.checks import shown
 from fetch_pomdp.core import gesture, language
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.errors import ObservationError
 
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """The words heard in a step, as `words.tokenize` gives them, and the pointing ray seen, if any."""
+    """The words heard in a step, as `words.tokenize` gives them, and the pointing ray seen, if any.
+
+    Raises ObservationError for anything else: a text is no sequence of words.
+    """
 
     words: tuple[str, ...] = ()
     ray: Ray | None = None
+
+    def __post_init__(self) -> None:
+        if type(self.words) is not tuple:
+            object.__setattr__(self, "words", _in_a_tuple(self.words))
+        for index, word in enumerate(self.words):
+            if type(word) is not str and not isinstance(word, str):
+                raise ObservationError(f"found {shown(word)}, expected a word", field=f"words[{index}]")
+        if self.ray is not None and not isinstance(self.ray, Ray):
+            raise ObservationError(f"found {shown(self.ray)}, expected a Ray or None", field="ray")
+
+
+def _in_a_tuple(words: object) -> tuple[str, ...]:
+    if not isinstance(words, list | tuple):
+        expected = "a tuple of words, such as tokenize(text) or ('green', 'marker')"
+        raise ObservationError(f"found {shown(words)}, expected {expected}", field="words")
+    return tuple(words)
 
 
 class Parts(NamedTuple):
