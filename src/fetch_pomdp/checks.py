@@ -12,6 +12,7 @@ from typing import Any
 from fetch_pomdp.errors import InputError
 
 Point3 = tuple[float, float, float]
+CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")  # what XML cannot hold
 FARTHEST = 1e6  # m: beyond it squared distances lose the precision that an angle needs
 
 
@@ -70,6 +71,14 @@ def text(value: object, field: str, expected: str, error: type[InputError]) -> s
     if any("\ud800" <= letter <= "\udfff" for letter in value):  # JSON can spell them, no file can hold them
         raise error(f"found {shown(value)}, expected text that UTF-8 can hold", field=field)
     return value
+
+
+def name(value: object, field: str, expected: str, error: type[InputError]) -> str:
+    """Return a text that a page and a picture can show: not empty, and without control characters."""
+    found = text(value, field, expected, error)
+    if CONTROL.search(found):
+        raise error(f"found {shown(found)}, expected {expected} without control characters", field=field)
+    return found
 
 
 def mapping(value: object, field: str, error: type[InputError]) -> Mapping[str, Any]:

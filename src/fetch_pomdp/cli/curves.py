@@ -14,6 +14,8 @@ from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.errors import StudyError
+from fetch_pomdp.files.writing import replaced
 from fetch_pomdp.study import curve_plots, prices
 from fetch_pomdp.study.analysis import words
 from fetch_pomdp.study.analysis.hypotheses import Hypothesis
@@ -114,13 +116,16 @@ def _warm_up(study: Study) -> None:
 
 
 def _write(table: Table, path: Path) -> None:
-    table.to_csv(path, index=False, float_format="%.6g")
+    with replaced(path, StudyError) as file:
+        file.write(table.to_csv(index=False, float_format="%.6g", lineterminator="\n").encode())
     print(f"wrote {path}")
 
 
 def _draw(figure: Any, stem: Path) -> None:
-    stem.with_suffix(".svg").write_text(svg(figure), encoding="utf-8")
-    figure.savefig(stem.with_suffix(".png"), dpi=DPI)
+    with replaced(stem.with_suffix(".svg"), StudyError) as file:
+        file.write(svg(figure).encode())
+    with replaced(stem.with_suffix(".png"), StudyError) as file:
+        figure.savefig(file, dpi=DPI, format="png")
     print(f"wrote {stem}.svg and {stem}.png")
 
 
