@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fetch_pomdp import checks
+from fetch_pomdp import checks, documents
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.documents import (
     LARGEST_TOML,
@@ -272,3 +272,16 @@ def test_known_answers_with_the_known_ones() -> None:
         checks.known(["wait", "wate"], ["wait", "point"], "action", ModelError)
     with pytest.raises(ModelError, match=r"^b: found no such field, expected one among 'a'$"):
         checks.required({"a": 1}, ["a", "b"], ModelError)
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no device without end")
+def test_what_has_no_end_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"^/dev/zero: found more than 64 MiB, expected a smaller file$"):
+        documents.read_raw("/dev/zero", SceneError)
+    with pytest.raises(SceneError, match=r"^/dev/zero:1: found a line of more than 16 MiB, expected a shorter one$"):
+        list(documents.read_json_lines("/dev/zero", SceneError))
+    (tmp_path / "two.jsonl").write_bytes(b'{"a": 1}\n' + b" " * (documents.LONGEST_LINE + 1))
+    lines = documents.read_json_lines(tmp_path / "two.jsonl", SceneError)
+    assert next(lines).data == {"a": 1}
+    with pytest.raises(SceneError, match=r"two.jsonl:2: found a line"):
+        next(lines)

@@ -6,9 +6,13 @@ import ast
 import subprocess
 import sys
 from collections.abc import Iterator
+from importlib import metadata
 from pathlib import Path
 
 import pytest
+
+import fetch_pomdp
+import fetch_pomdp.api
 
 PACKAGE = Path(__file__).parent.parent / "src" / "fetch_pomdp"
 FILES = sorted(PACKAGE.rglob("*.py"))
@@ -28,8 +32,9 @@ ALLOWED: dict[str, tuple[set[str], set[str] | None]] = {
     "adapters": (GROUND | {"extras", "checks", "documents", "core", "files", "adapters"}, CORE_LIBRARIES),
     "study": (GROUND | {"extras", "checks", "documents", "core", "files", "study"}, CORE_LIBRARIES),
     "user_study": (UP_TO_STUDIES, CORE_LIBRARIES | {"sqlalchemy", "alembic"}),
-    "cli": (UP_TO_STUDIES | {"cli"}, None),
-    "__init__": (GROUND | {"core"}, set()),
+    "cli": (UP_TO_STUDIES | {"cli", "__version__"}, None),
+    "api": (GROUND | {"core"}, set()),
+    "__init__": ({"api"}, set()),
     "__main__": ({"cli"}, set()),
 }
 
@@ -114,9 +119,28 @@ def test_files_and_functions_are_short(path: Path) -> None:
             assert (node.end_lineno or 0) - node.lineno < 60, node.name
 
 
-def test_importing_the_package_loads_neither_adapters_nor_a_command_line() -> None:
+def test_importing_the_package_loads_nothing_yet() -> None:
+    code = "import sys, fetch_pomdp; print([name for name in sys.modules if name.startswith(('fetch_pomdp.', 'num'))])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() in ("[]", "['numbers']")
+
+
+def test_the_package_has_the_names_of_its_api() -> None:
+    assert fetch_pomdp.__all__ == fetch_pomdp.api.__all__
+    for name in fetch_pomdp.__all__:
+        assert getattr(fetch_pomdp, name) is getattr(fetch_pomdp.api, name)
+    assert set(fetch_pomdp.__all__) < set(dir(fetch_pomdp))
+    with pytest.raises(AttributeError, match="no attribute 'Agend'"):
+        _ = fetch_pomdp.Agend
+
+
+def test_the_version_is_that_of_the_installed_package() -> None:
+    assert fetch_pomdp.__version__ == metadata.version("fetch-pomdp")
+
+
+def test_the_library_loads_neither_adapters_nor_a_command_line() -> None:
     code = """
-import sys, fetch_pomdp
+import sys, fetch_pomdp.api
 outside = ("fetch_pomdp.adapters", "fetch_pomdp.cli", "fetch_pomdp.files")
 libraries = {"typer", "rich", "pocketsphinx", "soxr", "sounddevice"}
 print([name for name in sys.modules if name.startswith(outside) or name in libraries])

@@ -19,7 +19,7 @@ import json, time
 start = time.process_time()
 import numba
 numba_imported = time.process_time()
-import fetch_pomdp
+import fetch_pomdp.api
 imported = time.process_time()
 agent = fetch_pomdp.Agent("ambiguous")
 agent.observe("marker", head=(0.0, 0.0, 1.6), wrist=(0.0, 0.6, 1.4))

@@ -1,30 +1,12 @@
 """FETCH-POMDP: decide online whether to wait, to point at an item and ask "this one?", or to pick it."""
 
-from fetch_pomdp.core.action import Action, Pick, Point, Wait
-from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.bounding.bounds import Bound, upper_bound
-from fetch_pomdp.core.events import Acted, Event, Observed
-from fetch_pomdp.core.evidence import Evidence
-from fetch_pomdp.core.explain import explain
-from fetch_pomdp.core.explanation import Explanation
-from fetch_pomdp.core.generative import State, step
-from fetch_pomdp.core.gesture import Ray
-from fetch_pomdp.core.interaction import Timing, interact
-from fetch_pomdp.core.model import Model, Rewards
-from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.base import Decision, Planner, decide_many
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
-from fetch_pomdp.core.planners.fitted.planner import FittedValue
-from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
-from fetch_pomdp.core.planners.thresholds import Threshold, tuned
-from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
-from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.core.simulation import Summary, simulate
-from fetch_pomdp.errors import FetchPomdpError, InputError, MissingExtraError
+# ruff: noqa: F403, F405 (the names are those of api.py, which type checkers see and a test compares)
+from typing import TYPE_CHECKING, Any
 
+if TYPE_CHECKING:
+    from fetch_pomdp.api import *
+
+__version__: str
 __all__ = [
     "Acted",
     "Action",
@@ -73,3 +55,24 @@ __all__ = [
     "tuned",
     "upper_bound",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Load the library when one of its names is first asked for.
+
+    So the command line begins before anything is imported that takes long, and ends quietly on Ctrl-C.
+    """
+    from importlib import import_module, metadata
+
+    if name in __all__:
+        return getattr(import_module("fetch_pomdp.api"), name)
+    if name == "__version__":
+        try:
+            return metadata.version("fetch-pomdp")
+        except metadata.PackageNotFoundError:  # only its folder is on the path
+            return "unknown"
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__, "__version__"})

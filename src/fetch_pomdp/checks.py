@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
@@ -11,6 +12,7 @@ from typing import Any
 from fetch_pomdp.errors import InputError
 
 Point3 = tuple[float, float, float]
+CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")  # what XML cannot hold
 FARTHEST = 1e6  # m: beyond it squared distances lose the precision that an angle needs
 
 
@@ -24,14 +26,23 @@ def shown(value: object, limit: int = 60) -> str:
 
 
 def number(value: object, field: str, expected: str, error: type[InputError]) -> float:
-    """Return a finite number as a float; bool and text are refused."""
+    """Return a finite number, Python's or NumPy's, as a float; bool and text are refused."""
     try:
-        finite = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        real = isinstance(value, float | int | numbers.Real) and not isinstance(value, bool)
+        result = float(value) if real else math.nan  # type: ignore[arg-type]
     except OverflowError:  # an int too large for a float
-        finite = False
-    if not finite:
+        result = math.nan
+    if not math.isfinite(result):
         raise error(f"found {shown(value)}, expected {expected}", field=field)
-    return float(value)  # type: ignore[arg-type]
+    return result
+
+
+def whole(value: object, least: int, most: int, field: str, error: type[InputError]) -> int:
+    """Return a whole number in [least, most], Python's or NumPy's, as an int; bool is refused."""
+    result = int(value) if isinstance(value, int | numbers.Integral) and not isinstance(value, bool) else least - 1
+    if not least <= result <= most:
+        raise error(f"found {shown(value)}, expected a whole number from {least} to {most}", field=field)
+    return result
 
 
 def within(value: object, low: float, high: float, field: str, expected: str, error: type[InputError]) -> float:
@@ -62,6 +73,14 @@ def text(value: object, field: str, expected: str, error: type[InputError]) -> s
     return value
 
 
+def name(value: object, field: str, expected: str, error: type[InputError]) -> str:
+    """Return a text that a page and a picture can show: not empty, and without control characters."""
+    found = text(value, field, expected, error)
+    if CONTROL.search(found):
+        raise error(f"found {shown(found)}, expected {expected} without control characters", field=field)
+    return found
+
+
 def mapping(value: object, field: str, error: type[InputError]) -> Mapping[str, Any]:
     """Return a mapping with text keys: a table in TOML, an object in JSON."""
     if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
@@ -73,9 +92,13 @@ def known(found: Iterable[str], names: Sequence[str], kind: str, error: type[Inp
     """Raise `error` for the first of `found` that is not among `names`, answered with the known ones."""
     for name in found:
         if name not in names:
-            close = get_close_matches(name, names, n=1)
-            hint = f", did you mean {close[0]!r}" if close else ""
-            raise error(f"unknown {kind}, expected one of {', '.join(names)}{hint}", field=name)
+            raise error(f"unknown {kind}, expected one of {', '.join(names)}{hint(name, names)}", field=name)
+
+
+def hint(name: str, names: Iterable[str]) -> str:
+    """Return the end of a message that asks whether another name was meant; empty if none is like it."""
+    close = get_close_matches(name, list(names), n=1)
+    return f", did you mean {close[0]!r}" if close else ""
 
 
 def required(data: Mapping[str, Any], names: Iterable[str], error: type[InputError]) -> None:

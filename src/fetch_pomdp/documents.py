@@ -5,18 +5,21 @@ It stands below the core, so that `Scene.load` can read a file while no module o
 
 from __future__ import annotations
 
+import io
 import json
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import IO, Any, AnyStr, TypeVar, cast
 
 from fetch_pomdp.checks import shown
 from fetch_pomdp.errors import InputError
 
 Made = TypeVar("Made")
+LARGEST_FILE = 1 << 26  # bytes: of a file that is read at once
+LONGEST_LINE = 1 << 24  # bytes, or letters of a text: of a file that is read line by line
 
 LARGEST_TOML = 1_000_000  # bytes: thousands of items
 MOST_LEVELS = 16  # of a dotted key; tomllib takes time with the square of their number
@@ -57,11 +60,15 @@ def read_text(path: str | Path, error: type[InputError]) -> str:
 
 
 def read_raw(path: str | Path, error: type[InputError]) -> bytes:
-    """Return a file's bytes. Raises `error` for a file that is missing or unreadable."""
+    """Return a file's bytes. Raises `error` for a file that is missing, unreadable, or over LARGEST_FILE."""
     try:
-        return Path(path).read_bytes()
+        with Path(path).open("rb") as stream:
+            found = stream.read(LARGEST_FILE + 1)
     except (OSError, ValueError) as cause:
         raise error(_reason(cause), source=str(path)) from None
+    if len(found) > LARGEST_FILE:
+        raise error(f"found more than {LARGEST_FILE >> 20} MiB, expected a smaller file", source=str(path))
+    return found
 
 
 def read_toml(path: str | Path, error: type[InputError]) -> Document:
@@ -157,11 +164,24 @@ def read_json_lines(path: str | Path, error: type[InputError]) -> Iterator[Docum
 def json_lines(stream: Iterable[bytes], source: str, error: type[InputError]) -> Iterator[Document]:
     """Yield the JSON objects of a stream as they come, one a line; empty lines are skipped.
 
-    Raises `error` for a line that is not UTF-8, not JSON, not an object, or repeats a field.
+    Raises `error` for a line that is not UTF-8, not JSON, not an object, repeats a field, or is over LONGEST_LINE where
+    the stream is a file.
     """
-    for number, raw in enumerate(stream, start=1):
+    lines = bounded(cast("IO[bytes]", stream), source, error) if isinstance(stream, io.IOBase) else stream
+    for number, raw in enumerate(lines, start=1):
         if (document := json_line(raw, source, number, error)) is not None:
             yield document
+
+
+def bounded(stream: IO[AnyStr], source: str, error: type[InputError]) -> Iterator[AnyStr]:
+    """Yield the lines of a file, so that one without end ends. Raises `error` for a line over LONGEST_LINE."""
+    number = 0
+    while line := stream.readline(LONGEST_LINE + 1):
+        number += 1
+        if len(line) > LONGEST_LINE:
+            found = f"found a line of more than {LONGEST_LINE >> 20} MiB, expected a shorter one"
+            raise error(found, source=source, line=number)
+        yield line
 
 
 def json_line(raw: bytes, source: str, line: int, error: type[InputError]) -> Document | None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import pytest
 
+from fetch_pomdp.cli import compiling
 from fetch_pomdp.cli.main import main
 
 Run = Callable[..., tuple[int, str, str]]
@@ -19,6 +20,14 @@ ASKED = (
     {"action": "point", "item": "marker-1"},
     {"observation": {"utterance": "no"}},
 )
+
+
+@pytest.fixture(autouse=True)
+def patience() -> Iterator[None]:
+    """Where nothing is compiled yet, what a command says of that is in no test's way."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(compiling, "PATIENCE", 600.0)
+        yield
 
 
 @pytest.fixture

@@ -242,6 +242,13 @@ def test_an_action_about_no_item(item: int) -> None:
         (lambda: Agent("ambiguous", rewards={"point": 3}), ModelError),
         (lambda: Agent("ambiguous", seed=-1), PlannerError),
         (lambda: Agent("ambiguous", seed=1.0), PlannerError),  # type: ignore[arg-type]
+        (lambda: Agent("ambiguous", seed=True), PlannerError),
+        (lambda: Agent(None), SceneError),  # type: ignore[arg-type]
+        (lambda: Agent("ambiguous", model=False), ModelError),  # type: ignore[arg-type]
+        (lambda: Agent("ambiguous", rewards=0), ModelError),  # type: ignore[arg-type]
+        (lambda: Agent("ambiguous", "sparse"), PlannerError),  # type: ignore[arg-type]
+        (lambda: Agent("ambiguous", SparseSampling), PlannerError),  # type: ignore[arg-type]
+        (lambda: Agent("ambiguous", prior=np.full(6, 1 / 6 + 0j)), BeliefError),
     ],
 )
 def test_bad_beginnings(make: Any, kind: type[InputError]) -> None:
@@ -257,3 +264,32 @@ def test_impossible_evidence_changes_nothing() -> None:
     with pytest.raises(BeliefError, match="bowl-1"):
         agent.observe("no")
     assert np.array_equal(agent.belief, before)
+
+
+@pytest.mark.parametrize("action", [None, "wait", 3, Wait, Point, ("point", 2)])
+def test_what_is_no_action_is_refused(action: Any) -> None:
+    agent = Agent("ambiguous")
+    for take in (agent.did, agent.item):
+        with pytest.raises(ActionError, match=r"^action: found .+, expected Wait\(\), Point\(item\) or Pick\(item\)$"):
+            take(action)
+    with pytest.raises(ActionError, match=r"^item: found item 6, expected an index below 6$"):
+        agent.item(Pick(6))
+    assert agent.asked is None
+
+
+def test_numbers_of_numpy_are_as_good_as_python_s() -> None:
+    agents = [Agent("ambiguous", seed=3), Agent("ambiguous", seed=np.int64(3), prior=np.full(6, 1 / 6))]  # type: ignore[arg-type]
+    for agent, item in zip(agents, (2, np.int64(2)), strict=True):
+        agent.did(Point(item))  # type: ignore[arg-type]
+        agent.observe("no", head=np.array([0, 0, 1.6]), wrist=np.array([0, 1, 1.2]))  # type: ignore[arg-type]
+    assert agents[0].asked == agents[1].asked == 2
+    assert np.array_equal(agents[0].belief, agents[1].belief)
+    assert agents[0].decide().action == agents[1].decide().action
+
+
+@pytest.mark.parametrize("observation", ["marker", None, ("marker",)])
+def test_what_is_no_observation_is_refused(observation: Any) -> None:
+    agent = Agent("ambiguous")
+    with pytest.raises(ObservationError, match=r"^observation: found .+, expected Observation\(\.\.\.\)$"):
+        agent.update(observation)
+    assert agent.belief == pytest.approx([1 / 6] * 6)

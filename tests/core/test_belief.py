@@ -212,3 +212,45 @@ def test_parts_of_an_observation_are_independent(asked: int | None) -> None:
         expected = oracle.base_chance(["tea"], item, world) * oracle.response_chance(["no"], item, asked, world, 0.4)
         expected *= oracle.gesture_density(ray.head, ray.wrist, item, world)
         assert math.exp(found[item]) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("items", [0, -1, True, 2.0, "six", None])
+def test_a_uniform_belief_has_an_item_or_more(items: Any) -> None:
+    with pytest.raises(BeliefError, match=f"^n_items: found {items!r}, expected a whole number from 1 to "):
+        Belief.uniform(items)
+
+
+@pytest.mark.parametrize(
+    "prior",
+    [
+        [0.5, 0.5],
+        (0.5, 0.5),
+        np.array([0.5, 0.5]),
+        np.array([0.5, 0.5], dtype=np.float32),
+        [np.float32(0.5), np.float64(0.5)],
+    ],
+)
+def test_a_prior_is_a_list_or_an_array(prior: Any) -> None:
+    assert Belief(prior).probabilities.tolist() == [0.5, 0.5]
+    assert Belief(np.array([0, 1])).probabilities.tolist() == [0.0, 1.0]
+    assert Belief.uniform(np.int64(2)).probabilities.tolist() == [0.5, 0.5]  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "prior",
+    [
+        np.array([0.5 + 0j, 0.5]),
+        [0.5 + 0.5j, 0.5],
+        [True, False],
+        [np.True_, 0.0],
+        np.array([True, False]),
+        ["0.5", "0.5"],
+        [[0.5], [0.5, 0.1]],
+        None,
+        "half",
+        {0.5: 0.5},
+    ],
+)
+def test_a_prior_of_no_real_numbers_is_refused(prior: Any) -> None:
+    with pytest.raises(BeliefError, match=r"^belief: found .+, expected a list of probabilities, one an item$"):
+        Belief(prior)

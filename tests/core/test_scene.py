@@ -242,3 +242,58 @@ def test_errors_gather_where_they_are() -> None:
     assert str(InputError("p", field="[2].x").within("items")) == "items[2].x: p"
     assert str(InputError("p").within("items")) == "items: p"
     assert str(InputError("two\nlines\x1b", field="a\u2028b")) == "a b: two lines "
+
+
+CUP = Item(id="cup", position=(0.0, 1.0, 1.0), vocabulary=("cup",))
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"model": None}, r"^model: found None, expected Model\(\.\.\.\)$"),
+        ({"model": {"sigma": 0.2}}, r"^model: found {'sigma': 0.2}, expected Model"),
+        ({"rewards": Model()}, r"^rewards: found Model.*, expected Rewards\(\.\.\.\)$"),
+        ({"items": None}, r"^items\[0\]: found None, expected Item\(\.\.\.\)$"),
+        ({"items": ["cup"]}, r"^items\[0\]: found 'cup', expected Item"),
+        ({"items": [CUP, {"id": "mug"}]}, r"^items\[1\]: found {'id': 'mug'}, expected Item"),
+        ({"items": ()}, "^items: found no items, expected one or more$"),
+    ],
+)
+def test_a_scene_is_of_items_model_and_rewards(given: Any, message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        Scene(**{"items": [CUP], "head": (0.0, 0.0, 1.6), **given})
+
+
+def test_a_misspelt_scene_is_answered_with_the_one_that_was_meant() -> None:
+    for misspelt, meant in (("ambigous", "ambiguous"), ("unambigous", "unambiguous"), ("Ambiguous", "ambiguous")):
+        with pytest.raises(SceneError, match=f"or a TOML file, did you mean '{meant}'$"):
+            Scene.load(misspelt)
+    with pytest.raises(SceneError, match=r"or a TOML file$"):
+        Scene.load("kitchen")
+    for wrong in (None, 3, b"ambiguous", True):
+        with pytest.raises(SceneError, match=r"^scene: found .*, expected a Scene, its name, or the path"):
+            Scene.load(wrong)  # type: ignore[arg-type]
+    with pytest.raises(SceneError):
+        Scene.load("a\0b")
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    model = Model(p_l=np.float32(0.9), sigma=np.float64(0.2), alpha=np.int64(1))  # type: ignore[arg-type]
+    assert model == Model(p_l=float(np.float32(0.9)), sigma=0.2, alpha=1.0)
+    assert all(type(getattr(model, name)) is float for name in ("p_l", "sigma", "alpha"))
+    assert Rewards(wait=np.int8(-2)).wait == -2.0  # type: ignore[arg-type]
+    item = Item(id="cup", position=[np.float32(0.5), np.int64(2), 1], vocabulary=["cup"])  # type: ignore[arg-type]
+    assert item.position == (0.5, 2.0, 1.0)
+
+
+@pytest.mark.parametrize("wrong", [True, np.True_, "0.9", None, 0.9 + 0j, np.nan, np.float32("inf"), 10**400, [0.9]])
+def test_truth_values_and_texts_are_no_numbers(wrong: Any) -> None:
+    with pytest.raises(ModelError, match=r"^p_l: found .+, expected a probability above 0 and below 1$"):
+        Model(p_l=wrong)
+
+
+@pytest.mark.parametrize("changes", [3, "sigma", ["sigma"], {1: 2}])
+def test_changes_are_a_mapping(changes: Any) -> None:
+    for whole in (Model(), Rewards()):
+        with pytest.raises(ModelError, match="expected a table of named fields"):
+            whole.with_changes(changes)

@@ -110,7 +110,7 @@ def test_whatever_a_kill_leaves_is_completed_to_the_same_bytes(
     for name in logs[:kept]:
         (folder / name).write_bytes(whole[name])
     for name in logs[kept : kept + 1]:
-        (folder / name).with_suffix(".part").write_bytes(whole[name][:50])
+        (folder / f"{name}.part").write_bytes(whole[name][:50])
     counts: list[int] = []
     run(LOGGED, folder, told=counts.append)
     assert files(folder) == whole

@@ -20,6 +20,7 @@ from fetch_pomdp.study.analysis.cells import cells
 from fetch_pomdp.study.analysis.plan import Plan
 from fetch_pomdp.study.analysis.trials import checked
 from fetch_pomdp.study.report import write_report
+from tests.files.disk import room_for
 from tests.study.made import drawn, table
 
 QUICK = Plan(draws=50, most_people=16)
@@ -144,6 +145,15 @@ def test_a_folder_that_cannot_be_is_one_clear_line(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(StudyError, match=r"file/deep: cannot be written: .*, expected a directory"):
         write_report(drawn(2, 0), tmp_path / "file" / "deep", QUICK)
+    with pytest.raises(StudyError, match=r"cannot be written: .*null byte, expected a directory"):
+        write_report(drawn(2, 0), "a\0b", QUICK)
+
+
+def test_a_report_without_room_leaves_the_one_before(folder: Path) -> None:
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    with room_for(1000), pytest.raises(StudyError, match=r"cannot be written: .*, expected room for it"):
+        write_report(drawn(4, 1), folder, QUICK)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
 
 
 def test_a_missing_library_is_named_with_the_line_that_installs_it() -> None:

@@ -15,6 +15,7 @@ from fetch_pomdp.study.experiment import run
 from fetch_pomdp.study.record import NAME, read_trials
 from fetch_pomdp.study.table import TYPES, from_frame, read_table, to_frame, write_table
 from fetch_pomdp.study.trial import Trial
+from tests.files.disk import room_for
 from tests.study.small import small
 
 TRIALS = (
@@ -97,3 +98,31 @@ def test_a_value_that_is_none_of_a_trial_is_refused_by_row_and_column(
     frame.to_csv(tmp_path / "trials.csv", index=False)
     with pytest.raises(StudyError, match=rf"trials.csv:3: {column}: {found}"):
         read_table(tmp_path / "trials.csv")
+
+
+def test_a_cell_that_is_none_is_refused_in_a_line(tmp_path: Path) -> None:
+    path = tmp_path / "trials.csv"
+    header = ",".join(TYPES)
+    path.write_text(f"{header}\n0,near,{'x' * 200_000},a,0,1.0,True,a,0,0\n")
+    with pytest.raises(StudyError, match=r"^\S+trials.csv:2: broken CSV: field larger than field limit \(131072\), "):
+        read_table(path)
+    for cell in ("a\0b", "\x01"):
+        path.write_text(f"{header}\n0,near,{cell},a,0,1.0,True,a,0,0\n")
+        with pytest.raises(StudyError, match=r"trials.csv:2: paradigm: found .*, expected a name without control"):
+            read_table(path)
+    path.write_text(f"{header}\n{10**30},near,sure,a,0,1.0,True,a,0,0\n")
+    with pytest.raises(StudyError, match=r"trials.csv:2: person: found 10+, expected a whole number from 0"):
+        read_table(path)
+    with pytest.raises(StudyError, match=r"cannot be read: .*null byte"):
+        read_table("a\0b.csv")
+
+
+@pytest.mark.parametrize("ending", [".csv", ".parquet"])
+def test_a_table_is_whole_or_the_one_before(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"trials{ending}"
+    write_table(TRIALS, path)
+    before = path.read_bytes()
+    with room_for(len(before) - 20), pytest.raises(StudyError, match=r"cannot be written: .*, expected room for it"):
+        write_table(TRIALS, path)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]

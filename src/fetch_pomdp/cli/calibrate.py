@@ -14,6 +14,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from fetch_pomdp.cli.options import Json, Seed, as_json
+from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
 from fetch_pomdp.core.scene import Scene
@@ -62,7 +63,7 @@ def calibrate(
     if as_json(json_lines):
         print(json.dumps(_to_json(found, people, limiting), ensure_ascii=False))
         return
-    _show(found, people, limiting, Console(highlight=False))
+    _show(found, people, limiting, Terminal())
 
 
 def _read(path: Path) -> Interaction:

@@ -7,12 +7,15 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
-from fetch_pomdp.cli.options import Seed, warm_up
+from fetch_pomdp.cli.options import Seed
 from fetch_pomdp.cli.progress import trials_bar
+from fetch_pomdp.cli.terminal import Terminal
+from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.errors import StudyError
+from fetch_pomdp.files.writing import replaced
 from fetch_pomdp.study import curve_plots, prices
 from fetch_pomdp.study.analysis import words
 from fetch_pomdp.study.analysis.hypotheses import Hypothesis
@@ -109,22 +112,25 @@ def _study(config: Path | None, seed: int | None) -> Study:
 def _warm_up(study: Study) -> None:
     for name, paradigm in study.paradigms.items():
         first = next(iter(study.layouts))
-        warm_up(planner_named(paradigm.planner, **paradigm.parameters), Problem(study.scene(first, name)))
+        prepare(planner_named(paradigm.planner, **paradigm.parameters), Problem(study.scene(first, name)))
 
 
 def _write(table: Table, path: Path) -> None:
-    table.to_csv(path, index=False, float_format="%.6g")
+    with replaced(path, StudyError) as file:
+        file.write(table.to_csv(index=False, float_format="%.6g", lineterminator="\n").encode())
     print(f"wrote {path}")
 
 
 def _draw(figure: Any, stem: Path) -> None:
-    stem.with_suffix(".svg").write_text(svg(figure), encoding="utf-8")
-    figure.savefig(stem.with_suffix(".png"), dpi=DPI)
+    with replaced(stem.with_suffix(".svg"), StudyError) as file:
+        file.write(svg(figure).encode())
+    with replaced(stem.with_suffix(".png"), StudyError) as file:
+        figure.savefig(file, dpi=DPI, format="png")
     print(f"wrote {stem}.svg and {stem}.png")
 
 
 def _tell(checked: list[Hypothesis], name: str) -> None:
-    console = Console(highlight=False, soft_wrap=True)
+    console = Terminal(soft_wrap=True)
     for hypothesis in checked:
         for clause in hypothesis.clauses:
             console.print(f"{hypothesis.name}: {words.verdict(clause, prices.judge(name))}", markup=False)

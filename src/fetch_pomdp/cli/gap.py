@@ -13,10 +13,10 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from numpy.random import Generator
-from rich.console import Console
 from rich.table import Table
 
 from fetch_pomdp.cli.options import Json, ModelFile, SceneName, Seed, as_json, loaded
+from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.bounding.bounds import Bound, upper_bound
 from fetch_pomdp.core.planners.base import Decision, Planner, PreparedPlanner
@@ -155,4 +155,4 @@ def show(scene: str, bound: Bound, seconds: float, standings: list[Standing]) ->
             f"{one.solving_seconds:.2f} s",
             f"{one.decision_seconds * 1e6:.0f} µs",
         )
-    Console(highlight=False).print(table)
+    Terminal().print(table)

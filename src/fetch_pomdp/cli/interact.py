@@ -16,24 +16,15 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
-from fetch_pomdp.cli.options import (
-    Budget,
-    Depth,
-    Json,
-    ModelFile,
-    PlannerName,
-    SceneName,
-    Seed,
-    Width,
-    met_live,
-    warm_up,
-)
+from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, met_live
 from fetch_pomdp.cli.show import show_event
+from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.core.ports import Recognizer, SkeletonSource
 from fetch_pomdp.core.scene import Scene
@@ -97,12 +88,12 @@ def fetch(
         target=target, person=person, order=order, paradigm=paradigm,
     )  # fmt: skip
     agent = header.agent()
-    console = Console(highlight=False, stderr=json_lines)
+    console = Terminal(stderr=json_lines)
     with contextlib.ExitStack() as open_files:
         typed = audio is None and skeleton is None
         ears, eyes = _typed(table, console) if typed else _sensors(table, audio, skeleton, rate)
+        prepare(agent.planner, agent.problem)
         record = open_files.enter_context(EventLog.create(log, header)) if log else None
-        warm_up(agent.planner, agent.problem)
         said: list[str] = []
         timing = Timing(wait=1.0, question=1.0) if typed else Timing()
         events = interact(agent, ConsoleRobot(said.append), ears, eyes, timing=timing)

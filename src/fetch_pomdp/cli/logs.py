@@ -19,7 +19,7 @@ from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.recordings import Recording, read_recording
 from fetch_pomdp.study.from_logs import trials_of
 
-app = typer.Typer(help="Recorded interactions: check them, live through them again.", no_args_is_help=True)
+app = typer.Typer(help="Check recorded interactions, and live through them again.", no_args_is_help=True)
 
 Logs = Annotated[list[Path], typer.Argument(metavar="LOG...", help="Recorded interactions (docs/events.md).")]
 Log = Annotated[Path, typer.Argument(metavar="LOG", help="A recorded interaction (docs/events.md).")]

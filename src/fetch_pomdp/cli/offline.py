@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from fetch_pomdp.cli.explain import show_decision
@@ -25,10 +24,11 @@ from fetch_pomdp.cli.options import (
     as_json,
     built_planner,
     loaded,
-    warm_up,
 )
 from fetch_pomdp.cli.show import show_event
+from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.events import Observed
+from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import simulate as simulated
 from fetch_pomdp.errors import EventError
@@ -48,7 +48,7 @@ def filter_events(events: Events, model: ModelFile = None, json_lines: Json = Fa
     """
     recording = _read(events)
     agent = _under(recording.header, model).agent()
-    console = Console(highlight=False)
+    console = Terminal()
     for event in recording.replay(agent):
         if not as_json(json_lines):
             show_event(event, agent, console)
@@ -94,12 +94,12 @@ def decide(
     agent = header.agent(planner=planner, seed=seed, depth=depth, width=width, budget_ms=budget)
     for _ in recording.replay(agent):
         pass
-    warm_up(agent.planner, agent.problem)
+    prepare(agent.planner, agent.problem)
     decision = agent.decide()
     if as_json(json_lines):
         print(json.dumps(decision_to_json(decision, agent.scene), ensure_ascii=False))
         return
-    show_decision(decision, agent, Console(highlight=False), explained=explain)
+    show_decision(decision, agent, Terminal(), explained=explain)
 
 
 def simulate(
@@ -119,7 +119,7 @@ def simulate(
     """
     problem = Problem(loaded(scene, model))
     chosen = built_planner(planner, depth=depth, width=width)
-    warm_up(chosen, problem)
+    prepare(chosen, problem)
     summary = dataclasses.asdict(simulated(problem, chosen, episodes, seed or 0))
     if as_json(json_lines):
         print(json.dumps(summary))
@@ -127,4 +127,4 @@ def simulate(
     table = Table("figure", "value", title=f"{scene}, {chosen}")
     for name, value in summary.items():
         table.add_row(name.replace("_", " "), f"{value:.4g}" if isinstance(value, float) else f"{value:,}")
-    Console(highlight=False).print(table)
+    Terminal().print(table)

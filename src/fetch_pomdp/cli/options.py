@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import sys
-import threading
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from fetch_pomdp.core.live.person import LIVE_MODEL, LIVE_REWARDS
-from fetch_pomdp.core.planners.base import Planner, prepare
+from fetch_pomdp.core.planners.base import Planner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
-from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.models import with_model
 
@@ -35,8 +33,6 @@ ModelFile = Annotated[
 Seed = Annotated[int | None, typer.Option(min=0, help="The same seed gives the same result.  [default: 0]")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 
-PATIENCE = 1.5  # s before a user is told why nothing happens
-
 
 def built_planner(name: str | None, **parameters: Any) -> Planner:
     """Return a planner by name, with the parameters that were given."""
@@ -58,15 +54,3 @@ def met_live(scene: str, model: Path | None) -> Scene:
 def as_json(asked: bool) -> bool:
     """Whether to print for a program: when asked to, or when the output is no terminal."""
     return asked or not sys.stdout.isatty()
-
-
-def warm_up(planner: Planner, problem: Problem) -> None:
-    """Load the compiled planner and let it solve the problem; say so on standard error where compiling takes long."""
-    message = "Compiling the planner, once after installation where its cache can be written: up to half a minute ..."
-    timer = threading.Timer(PATIENCE, lambda: print(message, file=sys.stderr, flush=True))
-    timer.daemon = True
-    timer.start()
-    try:
-        prepare(planner, problem)
-    finally:
-        timer.cancel()

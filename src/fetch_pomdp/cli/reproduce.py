@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from fetch_pomdp.cli.options import Seed
+from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.study.configuration import load_study
 from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.reproduce.compare import compare as compared
@@ -40,7 +40,7 @@ def fit(
     """
     wanted = Targets.load(targets)
     columns = (TextColumn("loss {task.fields[least]:.1f}"), BarColumn(), MofNCompleteColumn())
-    with Progress(*columns, console=Console(stderr=True)) as bar:
+    with Progress(*columns, console=Terminal(stderr=True)) as bar:
         task = bar.add_task("fit", total=budget, least=float("inf"))
 
         def told(count: int, loss: float) -> None:

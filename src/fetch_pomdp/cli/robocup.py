@@ -7,10 +7,11 @@ import json
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
-from fetch_pomdp.cli.options import Json, Seed, as_json, warm_up
+from fetch_pomdp.cli.options import Json, Seed, as_json
+from fetch_pomdp.cli.terminal import Terminal
+from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import PLANNERS, planner_named
 from fetch_pomdp.study.robocup.contest import Contest, Standing
 from fetch_pomdp.study.robocup.operators import Guests
@@ -41,7 +42,7 @@ def robocup(
     contest = Contest(games=games, seed=seed or 0, operators=Guests(unknown, bias))
     chosen = {name: planner_named(name) for name in planner or SCORED}
     for one in chosen.values():
-        warm_up(one, next(contest.courses())[0])
+        prepare(one, next(contest.courses())[0])
     standings = contest.standings(chosen)
     if as_json(json_lines):
         print(json.dumps(to_json(contest, standings)))
@@ -70,4 +71,4 @@ def show(contest: Contest, standings: list[Standing]) -> None:
             f"{one.questions:.2f}",
             f"{one.waits:.1f}",
         )
-    Console(highlight=False).print(table)
+    Terminal().print(table)

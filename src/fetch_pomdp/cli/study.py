@@ -9,14 +9,15 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from fetch_pomdp.adapters.speech.spoken import SpokenWords
 from fetch_pomdp.cli.curves import curves, price_lists
-from fetch_pomdp.cli.options import Json, ModelFile, Seed, as_json, warm_up
+from fetch_pomdp.cli.options import Json, ModelFile, Seed, as_json
 from fetch_pomdp.cli.progress import trials_bar
 from fetch_pomdp.cli.reproduce import compare, fit, stories
+from fetch_pomdp.cli.terminal import Terminal
+from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.files.models import with_model
@@ -110,7 +111,7 @@ def _chosen(config: Path | None, model: Path | None, given: Mapping[str, object]
 def _play(chosen: Study, out: Path, crew: Crew) -> None:
     for name, paradigm in chosen.paradigms.items():
         first = next(iter(chosen.layouts))
-        warm_up(planner_named(paradigm.planner, **paradigm.parameters), Problem(chosen.scene(first, name)))
+        prepare(planner_named(paradigm.planner, **paradigm.parameters), Problem(chosen.scene(first, name)))
     speech = SpokenWords if chosen.real_speech else None
     with trials_bar(chosen.size) as told:
         run(chosen, out, crew, speech=speech, told=told)
@@ -132,7 +133,7 @@ def _show(found: tuple[Cell, ...]) -> None:
             str(cell.people),
             str(cell.trials),
         )
-    Console(highlight=False).print(table)
+    Terminal().print(table)
 
 
 def _interval(low: float | None, high: float | None, form: str) -> str:

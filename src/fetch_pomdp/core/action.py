@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Integral
 from typing import TypeAlias
+
+from fetch_pomdp.checks import shown
+from fetch_pomdp.errors import ActionError
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,16 +17,31 @@ class Wait:
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """Point at an item and ask "this one?"."""
+    """Point at an item and ask "this one?". Raises ActionError for an item that is no index."""
 
     item: int
+
+    def __post_init__(self) -> None:
+        if type(self.item) is not int:
+            object.__setattr__(self, "item", _index(self.item))
 
 
 @dataclass(frozen=True, slots=True)
 class Pick:
-    """Take an item to the person: the end of the interaction."""
+    """Take an item to the person: the end of the interaction. Raises ActionError for an item that is no index."""
 
     item: int
+
+    def __post_init__(self) -> None:
+        if type(self.item) is not int:
+            object.__setattr__(self, "item", _index(self.item))
+
+
+def _index(item: object) -> int:
+    """Return NumPy's integers as Python's; how many items there are only the scene knows."""
+    if isinstance(item, bool) or not isinstance(item, int | Integral):
+        raise ActionError(f"found {shown(item)}, expected the index of an item, a whole number", field="item")
+    return int(item)
 
 
 Action: TypeAlias = Wait | Point | Pick

@@ -10,6 +10,7 @@ from typing import overload
 import numpy as np
 import numpy.typing as npt
 
+from fetch_pomdp import checks
 from fetch_pomdp.checks import Point3, shown
 from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
@@ -26,12 +27,12 @@ from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner, whole_number
+from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.core.turns import StepChances, constant_chances
-from fetch_pomdp.errors import ActionError, ObservationError
+from fetch_pomdp.errors import ActionError, ObservationError, PlannerError
 
 
 class Agent:
@@ -53,12 +54,10 @@ class Agent:
         prior: npt.ArrayLike | None = None,
     ) -> None:
         table = scene if isinstance(scene, Scene) else Scene.load(scene)
-        changed_model = model if isinstance(model, Model) else table.model.with_changes(model or {})
-        changed_rewards = rewards if isinstance(rewards, Rewards) else table.rewards.with_changes(rewards or {})
-        self.problem = Problem(dataclasses.replace(table, model=changed_model, rewards=changed_rewards))
+        self.problem = Problem(_changed(table, model, rewards))
         self.answers: Lexicon = lexicon(table.answers, self.problem.words)
-        self.planner: Planner = planner if planner is not None else FittedValue()
-        self.seed = whole_number(seed, 0, 2**63 - 1, "seed")
+        self.planner: Planner = FittedValue() if planner is None else _planner(planner)
+        self.seed = checks.whole(seed, 0, 2**63 - 1, "seed", PlannerError)
         self.asked: int | None = None  # i_r, as an index into the scene's items
         self._belief = Belief.uniform(self.problem.n_items) if prior is None else Belief(prior)
         if len(self._belief.log_probabilities) != self.problem.n_items:
@@ -117,7 +116,12 @@ class Agent:
         return self.update(Observation(self.answers.read(tokenize(utterance or ""), self.after).words, ray))
 
     def update(self, observation: Observation) -> Utterance:
-        """Take in an observation; return how its words were understood, by the paper's lists of answers."""
+        """Take in an observation; return how its words were understood, by the paper's lists of answers.
+
+        Raises ObservationError for what is none.
+        """
+        if not isinstance(observation, Observation):
+            raise ObservationError(f"found {shown(observation)}, expected Observation(...)", field="observation")
         utterance = unigram.split(observation.words, self.problem)
         parts = observations.log_likelihoods(observation, self.asked, self.problem, self.chances)
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
@@ -147,9 +151,11 @@ class Agent:
         return action
 
     def did(self, action: Action) -> None:
-        """Go on from an action that the robot did: a question asked is i_r from now on."""
-        if not isinstance(action, Wait) and not 0 <= action.item < self.problem.n_items:
-            raise ActionError(f"found item {action.item}, expected an index below {self.problem.n_items}", field="item")
+        """Go on from an action that the robot did: a question asked is i_r from now on.
+
+        Raises ActionError for what is no action, or about an item that the scene does not have.
+        """
+        self._check(action)
         self.asked, self._acted = asked_after(action, self.asked), action
         if isinstance(action, Point):
             self._evidence = self._evidence.asked(action.item)
@@ -168,5 +174,30 @@ class Agent:
     def item(self, action: Wait) -> None: ...
 
     def item(self, action: Action) -> Item | None:
-        """Return the item that an action is about; a wait is about none."""
+        """Return the item that an action is about; a wait is about none. Raises ActionError as `did`."""
+        self._check(action)
         return None if isinstance(action, Wait) else self.scene.items[action.item]
+
+    def _check(self, action: Action) -> None:
+        if not isinstance(action, Wait | Point | Pick):
+            expected = "Wait(), Point(item) or Pick(item)"
+            raise ActionError(f"found {shown(action)}, expected {expected}", field="action")
+        if not isinstance(action, Wait) and not 0 <= action.item < self.problem.n_items:
+            raise ActionError(f"found item {action.item}, expected an index below {self.problem.n_items}", field="item")
+
+
+def _changed(
+    table: Scene, model: Model | Mapping[str, object] | None, rewards: Rewards | Mapping[str, object] | None
+) -> Scene:
+    new_model = model if isinstance(model, Model) else table.model.with_changes({} if model is None else model)
+    new_rewards = (
+        rewards if isinstance(rewards, Rewards) else table.rewards.with_changes({} if rewards is None else rewards)
+    )
+    return dataclasses.replace(table, model=new_model, rewards=new_rewards)
+
+
+def _planner(planner: Planner) -> Planner:
+    if isinstance(planner, type) or not callable(getattr(planner, "decide", None)):
+        expected = "an object that decides, such as FittedValue() or SparseSampling()"
+        raise PlannerError(f"found {shown(planner)}, expected {expected}", field="planner")
+    return planner

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from fetch_pomdp import checks
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.compiled import Vector, compiled
@@ -12,6 +13,8 @@ from fetch_pomdp.core.observation import Observation, Parts
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.turns import StepChances, constant_chances
 from fetch_pomdp.errors import BeliefError
+
+MOST_ITEMS = 2**31  # 16 GiB of probabilities
 
 
 class Belief:
@@ -25,10 +28,7 @@ class Belief:
     _log: Vector
 
     def __init__(self, probabilities: npt.ArrayLike) -> None:
-        try:
-            given = np.array(probabilities, dtype=np.float64)
-        except (TypeError, ValueError):
-            given = np.empty(0)
+        given = _reals(probabilities)
         if given.ndim != 1 or not len(given) or not np.isfinite(given).all() or (given < 0).any():
             found = shown(probabilities)
             raise BeliefError(f"found {found}, expected a list of probabilities, one an item", field="belief")
@@ -40,7 +40,8 @@ class Belief:
 
     @classmethod
     def uniform(cls, n_items: int) -> Belief:
-        """Return the belief an interaction starts with."""
+        """Return the belief an interaction starts with. Raises BeliefError for a number of items below 1."""
+        n_items = checks.whole(n_items, 1, MOST_ITEMS, "n_items", BeliefError)
         return cls(np.full(n_items, 1.0 / n_items))
 
     @property
@@ -84,6 +85,17 @@ class Belief:
         belief = Belief.__new__(Belief)
         belief._log = log
         return belief
+
+
+def _reals(given: npt.ArrayLike) -> Vector:
+    """Return real numbers as an array of any shape; of what is none, such as truth values and texts, an empty one."""
+    if isinstance(given, list | tuple) and any(isinstance(one, bool | np.bool_) for one in given):
+        return np.empty(0)
+    try:
+        found = np.asarray(given)
+    except ValueError:  # rows of different lengths
+        return np.empty(0)
+    return np.array(found, dtype=np.float64) if found.dtype.kind in "iuf" else np.empty(0)
 
 
 @compiled

@@ -44,14 +44,15 @@ class Model:
         for name, (low, high, expected) in ranges.items():
             value = checks.within(getattr(self, name), low, high, name, expected, ModelError)
             object.__setattr__(self, name, value)
-        if self.gesture_likelihood not in get_args(GestureLikelihood):
+        if not isinstance(self.gesture_likelihood, str) or self.gesture_likelihood not in get_args(GestureLikelihood):
             found = checks.shown(self.gesture_likelihood)
             raise ModelError(f"found {found}, expected 'eq7' or 'exact'", field="gesture_likelihood")
         if self.turns is not None and not isinstance(self.turns, Turns):
             raise ModelError(f"found {checks.shown(self.turns)}, expected a table of chances, or none", field="turns")
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
-        """Return this model with some parameters changed. Raises ModelError for a name that is none."""
+        """Return this model with some parameters changed. Raises ModelError for a parameter that it does not have."""
+        checks.mapping(changes, "", ModelError)
         checks.known(changes, [field.name for field in dataclasses.fields(self)], "parameter", ModelError)
         if changes.get("turns") is False:  # what a TOML file can say for none
             changes = {**changes, "turns": None}
@@ -88,6 +89,7 @@ class Rewards:
             raise ModelError(f"found {value!r}, expected {expected} ({limit!r})", field=name)
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
-        """Return these rewards with some changed. Raises ModelError for a name that is none."""
+        """Return these rewards with some changed. Raises ModelError for a reward that does not exist."""
+        checks.mapping(changes, "", ModelError)
         checks.known(changes, [field.name for field in dataclasses.fields(self)], "reward", ModelError)
         return dataclasses.replace(self, **changes)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from numpy.random import Generator
 
+from fetch_pomdp.checks import shown
 from fetch_pomdp.core import gesture
 from fetch_pomdp.core.action import Action, Point
 from fetch_pomdp.core.compiled import Vector
@@ -15,14 +16,34 @@ from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.language.words import POSITIVE
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.turns import NO, SILENT, YES, StepChances
+from fetch_pomdp.errors import ObservationError
 
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """The words heard in a step, as `words.tokenize` gives them, and the pointing ray seen, if any."""
+    """The words heard in a step, as `words.tokenize` gives them, and the pointing ray seen, if any.
+
+    Raises ObservationError for anything else: a text is no sequence of words.
+    """
 
     words: tuple[str, ...] = ()
     ray: Ray | None = None
+
+    def __post_init__(self) -> None:
+        if type(self.words) is not tuple:
+            object.__setattr__(self, "words", _in_a_tuple(self.words))
+        for index, word in enumerate(self.words):
+            if type(word) is not str and not isinstance(word, str):
+                raise ObservationError(f"found {shown(word)}, expected a word", field=f"words[{index}]")
+        if self.ray is not None and not isinstance(self.ray, Ray):
+            raise ObservationError(f"found {shown(self.ray)}, expected a Ray or None", field="ray")
+
+
+def _in_a_tuple(words: object) -> tuple[str, ...]:
+    if not isinstance(words, list | tuple):
+        expected = "a tuple of words, such as tokenize(text) or ('green', 'marker')"
+        raise ObservationError(f"found {shown(words)}, expected {expected}", field="words")
+    return tuple(words)
 
 
 class Parts(NamedTuple):

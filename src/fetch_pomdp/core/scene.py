@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
@@ -50,7 +50,8 @@ def _vocabulary_word(value: object, path: str) -> str:
 class Scene:
     """The items of a table, the head of the person before it, and the model measured there.
 
-    Raises SceneError for no items, ids used twice, or an item in the middle of the head.
+    Raises SceneError for no items, ids used twice, an item in the middle of the head, or what is no Item, Model or
+    Rewards at all.
     """
 
     items: tuple[Item, ...]
@@ -60,10 +61,12 @@ class Scene:
     answers: Answers = field(default_factory=Answers)  # what is understood as an answer here, beside what is everywhere
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "items", tuple(self.items))
+        object.__setattr__(self, "items", _items(self.items))
         object.__setattr__(self, "head", checks.point(self.head, "head", SceneError))
-        if not self.items:
-            raise SceneError("found no items, expected one or more", field="items")
+        for name, kind in (("model", Model), ("rewards", Rewards)):
+            if not isinstance(getattr(self, name), kind):
+                found = f"found {checks.shown(getattr(self, name))}, expected {kind.__name__}(...)"
+                raise SceneError(found, field=name)
         seen: dict[str, int] = {}
         for index, item in enumerate(self.items):
             if item.id in seen:
@@ -96,12 +99,15 @@ class Scene:
 
         Raises SceneError or ModelError, with file, line and field, for what is not a scene.
         """
+        if not isinstance(name_or_path, str | os.PathLike):
+            found = f"found {checks.shown(name_or_path)}, expected a Scene, its name, or the path of a TOML file"
+            raise SceneError(found, field="scene")
         if str(name_or_path) in LAYOUTS:
             return cls.from_mapping(LAYOUTS[str(name_or_path)], model, rewards)
         path = Path(name_or_path)
-        if not path.suffix and not os.path.exists(path):  # noqa: PTH110 (Path.exists raises for a name that is too long)
-            names = ", ".join(LAYOUTS)
-            raise SceneError(f"found no such scene or file, expected one of {names}, or a TOML file", source=str(path))
+        if not path.suffix and not _exists(path):
+            expected = f"expected one of {', '.join(LAYOUTS)}, or a TOML file{checks.hint(path.name, LAYOUTS)}"
+            raise SceneError(f"found no such scene or file, {expected}", source=str(path))
         return read_toml(path, SceneError).build(lambda data: cls.from_mapping(data, model, rewards))
 
     @classmethod
@@ -134,6 +140,23 @@ class Scene:
         ]
         answers = self.answers.to_mapping()
         return {"head": list(self.head), "items": items} | ({"answers": answers} if answers else {})
+
+
+def _items(given: object) -> tuple[Item, ...]:
+    items = tuple(given) if isinstance(given, Iterable) else (given,)
+    for index, item in enumerate(items):
+        if not isinstance(item, Item):
+            raise SceneError(f"found {checks.shown(item)}, expected Item(...)", field=f"items[{index}]")
+    if not items:
+        raise SceneError("found no items, expected one or more", field="items")
+    return items
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return os.path.exists(path)  # noqa: PTH110 (Path.exists raises for a name that is too long)
+    except ValueError:  # a NUL in it, before Python 3.12
+        return False
 
 
 def _item(fields: object, path: str) -> Item:

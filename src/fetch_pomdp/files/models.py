@@ -11,12 +11,13 @@ from fetch_pomdp import checks
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError, ModelError
+from fetch_pomdp.files.writing import write_new
 
 
 def with_model(scene: Scene, path: str | Path) -> Scene:
     """Return a scene under the [model] and [rewards] of a TOML file.
 
-    Raises ModelError, with file, line and field, for what is no model.
+    Raises ModelError, with file, line and field, for a file that is not a model.
     """
 
     def read(data: Mapping[str, Any]) -> Scene:
@@ -29,7 +30,7 @@ def with_model(scene: Scene, path: str | Path) -> Scene:
 def changed(scene: Scene, data: Mapping[str, Any], kind: type[InputError]) -> Scene:
     """Return a scene with the parameters under `model` and `rewards` in data changed.
 
-    Raises ModelError, or `kind` for what is no table, with the field.
+    Raises ModelError, or `kind` for what is not a table, with the field.
     """
     try:
         section = "model"
@@ -55,11 +56,4 @@ def write_model(
     lines += [f"{name} = {value!r}  # {comment}" for name, (value, comment) in values.items()]
     if turns is not None:
         lines += ["[model.turns]", *(f"{name} = {value!r}  # {comment}" for name, (value, comment) in turns.items())]
-    try:
-        with Path(path).open("x", encoding="utf-8") as stream:
-            stream.write("\n".join(lines) + "\n")
-    except FileExistsError:
-        raise ModelError("found a file there already, expected a new one", source=str(path)) from None
-    except (OSError, ValueError) as cause:
-        reason = getattr(cause, "strerror", None) or cause
-        raise ModelError(f"cannot be written: {reason}, expected a folder for it", source=str(path)) from None
+    write_new(path, lines, ModelError)

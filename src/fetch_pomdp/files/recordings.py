@@ -16,6 +16,7 @@ from fetch_pomdp.errors import EventError
 from fetch_pomdp.files.events import event_to_json
 from fetch_pomdp.files.header import Header, header_to_json
 from fetch_pomdp.files.scanning import ends, scanned
+from fetch_pomdp.files.writing import LineFile
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,9 +44,12 @@ class Recording:
 
 
 class EventLog:
-    """Writes an interaction as it happens: each line is flushed, so that a kill loses at most the one being written."""
+    """Writes an interaction as it happens: each line is flushed, so that a kill loses at most the one being written.
 
-    def __init__(self, stream: TextIO, scene: Scene) -> None:
+    A file that cannot be written any more raises EventError, and holds the lines before.
+    """
+
+    def __init__(self, stream: TextIO | LineFile, scene: Scene) -> None:
         self._stream, self._scene = stream, scene
 
     def write(self, event: Event) -> None:
@@ -67,7 +71,7 @@ class EventLog:
         self._stream.flush()
 
     @classmethod
-    def begin(cls, stream: TextIO, header: Header) -> Self:
+    def begin(cls, stream: TextIO | LineFile, header: Header) -> Self:
         """Start a log on an empty stream."""
         log = cls(stream, header.scene)
         log._write(header_to_json(header))
@@ -76,19 +80,19 @@ class EventLog:
     @classmethod
     def create(cls, path: str | Path, header: Header) -> Self:
         """Start a log in a new file. Raises EventError if the file exists or cannot be written."""
+        file = LineFile(path, "x", EventError)
         try:
-            return cls.begin(Path(path).open("x", encoding="utf-8"), header)
-        except FileExistsError:
-            raise EventError("found a file there already, expected a new one", source=str(path)) from None
-        except (OSError, ValueError) as cause:
-            reason = getattr(cause, "strerror", None) or cause
-            raise EventError(f"cannot be written: {reason}, expected a folder for it", source=str(path)) from None
+            return cls.begin(file, header)
+        except BaseException:
+            file.close()
+            file.path.unlink()
+            raise
 
     @classmethod
     def resume(cls, path: str | Path) -> tuple[Recording, Self]:
         """Return what a log holds, and the log open to go on; a last line that a kill cut short is dropped.
 
-        Raises InputError, with file, line and field, for a file that is no log.
+        Raises InputError, with file, line and field, for a file that is not a log.
         """
         try:
             with Path(path).open("r+b") as file:
@@ -98,7 +102,7 @@ class EventLog:
             reason = getattr(cause, "strerror", None) or cause
             raise EventError(f"cannot be read: {reason}, expected a log", source=str(path)) from None
         recording = read_recording(path)
-        return recording, cls(Path(path).open("a", encoding="utf-8"), recording.header.scene)
+        return recording, cls(LineFile(path, "a", EventError), recording.header.scene)
 
 
 def read_recording(path: str | Path) -> Recording:

@@ -16,6 +16,7 @@ from fetch_pomdp.core.events import Event
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.recordings import EventLog
+from fetch_pomdp.files.writing import replaced
 from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.design import PERSON, WORLD, Study, assignments, stream
 from fetch_pomdp.study.encounter import encounter
@@ -95,6 +96,5 @@ def run(
 def _keep(log: str, path: Path) -> None:
     """Write a log whole or not at all: what was left of it by a run that was killed is replaced."""
     path.parent.mkdir(exist_ok=True)
-    part = path.with_suffix(".part")
-    part.write_text(log, encoding="utf-8")
-    part.replace(path)
+    with replaced(path, StudyError) as file:
+        file.write(log.encode())

@@ -15,8 +15,9 @@ from typing import Any, BinaryIO, Self
 
 from fetch_pomdp import checks
 from fetch_pomdp.checks import shown
-from fetch_pomdp.documents import Document, json_lines
+from fetch_pomdp.documents import Document, bounded, json_lines
 from fetch_pomdp.errors import StudyError
+from fetch_pomdp.files.writing import append, unwritable
 from fetch_pomdp.study.configuration import difference, digest, to_plain
 from fetch_pomdp.study.design import Study, assignments
 from fetch_pomdp.study.trial import Assignment, Trial
@@ -32,8 +33,8 @@ COLUMNS = tuple(field.name for field in dataclasses.fields(Trial))
 class Record:
     """A study's file of trials, open for more; `count` is how many it holds."""
 
-    def __init__(self, stream: BinaryIO, count: int) -> None:
-        self._stream, self.count = stream, count
+    def __init__(self, stream: BinaryIO, count: int, path: Path) -> None:
+        self._stream, self.count, self._path = stream, count, path
 
     @classmethod
     def open(cls, folder: Path, study: Study) -> Self:
@@ -52,22 +53,27 @@ class Record:
         try:
             _lock(stream, path)
             _cut_off_half_a_line(stream)
-            record = cls(stream, 0)
+            record = cls(stream, 0, path)
             if stream.tell() == 0:
                 record._write(header_of(study))
             record.count = _checked(stream, path, study)
         except BaseException:
+            if stream.seek(0, 2) == 0:  # a new one that no line could be written to
+                path.unlink()
             stream.close()
             raise
         return record
 
     def add(self, trial: Trial) -> None:
-        """Add a trial."""
+        """Add a trial, whole or not at all. Raises StudyError where the disk is full."""
         self._write(trial_to_json(trial))
         self.count += 1
 
     def _write(self, fields: Mapping[str, Any]) -> None:
-        self._stream.write(json.dumps(fields, ensure_ascii=False).encode() + b"\n")
+        try:
+            append(self._stream, json.dumps(fields, ensure_ascii=False).encode() + b"\n")
+        except OSError as cause:
+            raise unwritable(cause, self._path, StudyError) from None
 
     def __enter__(self) -> Self:
         return self
@@ -89,7 +95,8 @@ def read_trials(path: Path) -> Iterator[Trial]:
     """
     try:
         with path.open("rb") as stream:
-            documents = json_lines((line for line in stream if line.endswith(b"\n")), str(path), StudyError)
+            lines = bounded(stream, str(path), StudyError)
+            documents = json_lines((line for line in lines if line.endswith(b"\n")), str(path), StudyError)
             _header(documents, path)
             for document in documents:
                 yield document.build(trial_from_json)
@@ -108,12 +115,12 @@ def trial_from_json(data: Mapping[str, Any]) -> Trial:
         checks.known(data, COLUMNS, "field", StudyError)
         checks.required(data, COLUMNS, StudyError)
     for name in ("person", "order", "questions", "waits"):
-        if type(data[name]) is not int or data[name] < 0:
+        if type(data[name]) is not int or not 0 <= data[name] < 2**63:
             raise StudyError(f"found {shown(data[name])}, expected a whole number from 0", field=name)
     for name in ("layout", "paradigm", "desired"):
-        checks.text(data[name], name, "a name", StudyError)
+        checks.name(data[name], name, "a name", StudyError)
     if data["picked"] is not None:
-        checks.text(data["picked"], "picked", "the id of an item, or null", StudyError)
+        checks.name(data["picked"], "picked", "the id of an item, or null", StudyError)
     if type(data["correct"]) is not bool:
         raise StudyError(f"found {shown(data['correct'])}, expected true or false", field="correct")
     time = checks.number(data["time"], "time", "seconds", StudyError)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fetch_pomdp.errors import StudyError
+from fetch_pomdp.files.writing import replaced
 from fetch_pomdp.study import page, plots
 from fetch_pomdp.study.analysis import words
 from fetch_pomdp.study.analysis.cells import Cell
@@ -27,21 +28,24 @@ READING = (
 def write_report(table: Table, out: str | Path, plan: Plan | None = None) -> Path:
     """Write `report.html`, and its tables as CSV and Parquet, into the directory `out`; return the page's path.
 
-    table: a DataFrame whose columns are the fields of Trial. The same table gives the same files. Raises StudyError for
-    a table that cannot be used or a directory that cannot be written to.
+    table: a DataFrame whose columns are the fields of Trial. The same table gives the same files, each whole or not at
+    all. Raises StudyError for a table that cannot be used or a directory that cannot be written to.
     """
     found = analyse(table, plan)
     folder = Path(out)
     path = folder / "report.html"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for name, frame in tables(found).items():
-            frame.to_csv(folder / f"{name}.csv", index=False)
-            frame.to_parquet(folder / f"{name}.parquet", index=False)
-        path.write_text(html(found), encoding="utf-8")
-    except OSError as cause:
-        problem = f"cannot be written: {cause.strerror or cause}, expected a directory"
-        raise StudyError(problem, source=str(out)) from None
+    except (OSError, ValueError) as cause:  # ValueError: a NUL in the path
+        reason = getattr(cause, "strerror", None) or cause
+        raise StudyError(f"cannot be written: {reason}, expected a directory", source=str(out)) from None
+    for name, frame in tables(found).items():
+        with replaced(folder / f"{name}.csv", StudyError) as file:
+            file.write(frame.to_csv(index=False, lineterminator="\n").encode())
+        with replaced(folder / f"{name}.parquet", StudyError) as file:
+            frame.to_parquet(file, index=False)
+    with replaced(path, StudyError) as file:
+        file.write(html(found).encode())
     return path
 
 

@@ -6,13 +6,14 @@ import csv
 import itertools
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from fetch_pomdp import checks
-from fetch_pomdp.documents import Document
+from fetch_pomdp.documents import Document, bounded
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.extras import load
 from fetch_pomdp.files.recordings import read_recording
+from fetch_pomdp.files.writing import replaced
 from fetch_pomdp.study.from_logs import trials_of
 from fetch_pomdp.study.record import COLUMNS, LOGS, NAME, read_trials, trial_from_json
 from fetch_pomdp.study.trial import Trial
@@ -58,8 +59,7 @@ def read_table(path: str | Path) -> Any:
     """Return the table of a study's folder, its trials.jsonl, or a CSV or Parquet file, as a pandas DataFrame.
 
     A folder without trials.jsonl has logs, as the export of a study with people: their trials are the table. Raises
-    StudyError for a file that is none of these, cannot be read, or has other columns, EventError for a log that is
-    none.
+    StudyError for any other file, or one that cannot be read or has other columns; EventError for a broken log.
     """
     source = Path(path)
     logs = sorted((source / LOGS).glob("*.jsonl")) if source.is_dir() and not (source / NAME).exists() else []
@@ -85,11 +85,14 @@ def read_table(path: str | Path) -> Any:
 def _read_csv(source: Path) -> Iterator[Trial]:
     """Yield the trials of a CSV file; a value that is not of its column's kind stays text, and is refused as such."""
     with source.open(encoding="utf-8", newline="") as stream:
-        reader = csv.DictReader(stream, restkey="more")
-        checks.required(dict.fromkeys(reader.fieldnames or ()), COLUMNS, StudyError)
-        for row in reader:
-            fields = {name: _parsed(text, TYPES.get(name, "str")) for name, text in row.items()}
-            yield Document(str(source), fields, lambda _: reader.line_num).build(trial_from_json)
+        reader = csv.DictReader(bounded(stream, str(source), StudyError), restkey="more")
+        try:
+            checks.required(dict.fromkeys(reader.fieldnames or ()), COLUMNS, StudyError)
+            for row in reader:
+                fields = {name: _parsed(text, TYPES.get(name, "str")) for name, text in row.items()}
+                yield Document(str(source), fields, lambda _: reader.line_num).build(trial_from_json)
+        except csv.Error as cause:
+            raise StudyError(f"broken CSV: {cause}, expected a table of trials", line=reader.line_num + 1) from None
 
 
 def _parsed(text: str | None, kind: str) -> object:
@@ -106,13 +109,14 @@ def _parsed(text: str | None, kind: str) -> object:
 def write_table(trials: Iterable[Trial], path: str | Path) -> None:
     """Write trials to a CSV or Parquet file, some at a time, over whatever was there.
 
-    Raises StudyError for an ending that is neither.
+    Raises StudyError for an ending that is neither, or a file that cannot be written; then what was there is kept.
     """
     target = Path(path)
     write = {".csv": _write_csv, ".parquet": _write_parquet}.get(_ending(target))
     if write is None:
         raise StudyError(f"found {target.suffix!r}, expected .csv or .parquet", source=str(target))
-    write(_frames(trials), target)
+    with replaced(target, StudyError) as file:
+        write(_frames(trials), file)
 
 
 def _frames(trials: Iterable[Trial]) -> Iterator[Any]:
@@ -121,17 +125,16 @@ def _frames(trials: Iterable[Trial]) -> Iterator[Any]:
         yield to_frame(chunk)
 
 
-def _write_csv(frames: Iterator[Any], target: Path) -> None:
-    with target.open("w", encoding="utf-8", newline="") as stream:
-        to_frame([]).to_csv(stream, index=False, lineterminator="\n")
-        for frame in frames:
-            frame.to_csv(stream, index=False, header=False, lineterminator="\n")
+def _write_csv(frames: Iterator[Any], file: BinaryIO) -> None:
+    file.write(to_frame([]).to_csv(index=False, lineterminator="\n").encode())
+    for frame in frames:
+        file.write(frame.to_csv(index=False, header=False, lineterminator="\n").encode())
 
 
-def _write_parquet(frames: Iterator[Any], target: Path) -> None:
+def _write_parquet(frames: Iterator[Any], file: BinaryIO) -> None:
     arrow, parquet = load("pyarrow", "study"), load("pyarrow.parquet", "study")
     schema = arrow.Schema.from_pandas(to_frame([]), preserve_index=False)
-    with parquet.ParquetWriter(target, schema) as writer:
+    with parquet.ParquetWriter(file, schema) as writer:
         for frame in frames:
             writer.write_table(arrow.Table.from_pandas(frame, schema=schema, preserve_index=False))
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fetch_pomdp.errors import StudyError
+from fetch_pomdp.files.writing import replaced
 from fetch_pomdp.study.clock import Clock
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.reproduce.free import changed
@@ -34,11 +35,9 @@ def write_fit(targets: Targets, found: Fit, path: Path) -> tuple[Path, Path]:
     head = f"# Fitted to the cells of the paper: loss {found.loss:.1f} after {found.evaluations} evaluations"
     study_lines = [f"{name} = {getattr(study, name)}" for name in ("people", "trials", "seed")]
     text = [head, "", *study_lines, f"population = {json.dumps(path.name)}", "", "[clock]", *clock]
-    try:
-        path.write_text("\n".join([head, "", *people, ""]), encoding="utf-8")
-        beside.write_text("\n".join([*text, ""]), encoding="utf-8")
-    except OSError as cause:
-        raise StudyError(f"cannot be written: {cause.strerror}, expected a folder", source=str(path)) from None
+    for target, lines in ((path, [head, "", *people, ""]), (beside, [*text, ""])):
+        with replaced(target, StudyError) as file:
+            file.write("\n".join(lines).encode())
     return path, beside
 
 

@@ -1,0 +1,5 @@
+"""The command line, as `python -m fetch_pomdp`."""
+
+from fetch_pomdp.cli.main import main
+
+main()
