@@ -9,7 +9,8 @@ Time is that of the sensors' streams, in seconds. A step begins with an action a
 Choice: answers that end before the question has been asked cannot answer it; they belong to the step before, and are
 read with the i_r of that step. Other words of that time mean the same in either step, and are read with the later one.
 In real life the arm shows the item before the voice has ended: an answer that ends within `Timing.overlap` before the
-end of the question answers it.
+end of the question answers it. Words that follow an early answer within `CONTINUES` are the rest of it, and no phrase
+that answers the question.
 
 Choice: a pick that the person stopped was shown to them like a question, and they objected: its item is i_r from then
 on, and what they stopped it with that the model does not know ("stop", "wrong one") is read as "no".
