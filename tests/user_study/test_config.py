@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from fetch_pomdp.core.action import Point
+from fetch_pomdp.core.live.person import LIVE_MODEL
 from fetch_pomdp.errors import InputError
-from fetch_pomdp.files.lively import LIVE_MODEL
 from fetch_pomdp.user_study.config import UserStudy, load_user_study, template
 from tests.user_study.small import STUDY, small_study
 

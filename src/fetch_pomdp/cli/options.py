@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from fetch_pomdp.core.live.person import LIVE_MODEL, LIVE_REWARDS
+from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import Planner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.scene import Scene
@@ -47,7 +47,7 @@ def loaded(scene: str, model: Path | None) -> Scene:
 
 def met_live(scene: str, model: Path | None) -> Scene:
     """Return a scene as `loaded`, before live people: with their model where neither file says otherwise."""
-    table = Scene.load(scene, LIVE_MODEL, LIVE_REWARDS)
+    table = live_scene(scene)
     return table if model is None else with_model(table, model)
 
 

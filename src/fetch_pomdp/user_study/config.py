@@ -11,10 +11,10 @@ from typing import Any
 
 from fetch_pomdp import checks
 from fetch_pomdp.checks import shown
+from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.documents import parse_toml, read_toml
 from fetch_pomdp.errors import InputError, StudyError
 from fetch_pomdp.files.header import Header
-from fetch_pomdp.files.lively import live_scene
 from fetch_pomdp.study.configuration import digest, study_from_mapping, to_plain
 from fetch_pomdp.study.design import PRACTICE, Study, assignments_of, stream
 from fetch_pomdp.study.trial import Assignment
@@ -31,7 +31,7 @@ LONGEST_COUNTDOWN = 60.0  # s
 class UserStudy:
     """A study in which real people take part. Texts are by language, each with English.
 
-    Where the study's files do not say, the robot expects of them what it expects of live people (files/lively.py).
+    Where the study's files do not say, the robot expects of them what it expects of live people (core/live/person.py).
     Raises StudyError for an invalid field.
     """
 

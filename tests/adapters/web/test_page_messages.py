@@ -20,10 +20,10 @@ from fetch_pomdp.adapters.web.page_messages import (
     header_of,
     read_page_message,
 )
+from fetch_pomdp.core.live.person import LIVE_MODEL
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.files.header import Header
-from fetch_pomdp.files.lively import LIVE_MODEL
 
 TABLE = """
 head = [0.0, 0.0, 1.6]

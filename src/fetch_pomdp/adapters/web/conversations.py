@@ -18,10 +18,10 @@ from fetch_pomdp.adapters.web.server_messages import (
     without_insight,
 )
 from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.files.lively import live_scene
 
 
 class ConversationOpener:

@@ -16,12 +16,12 @@ from fetch_pomdp import checks
 from fetch_pomdp.checks import Point3, shown
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.live.person import live_scene, live_scene_from
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.documents import parse_toml, read_text
 from fetch_pomdp.errors import MessageError, SceneError
 from fetch_pomdp.files.header import Header
-from fetch_pomdp.files.lively import live_scene, lively
 
 VERSION = 1
 LARGEST_MESSAGE = 65_536  # bytes, of text or sound
@@ -140,7 +140,7 @@ def _scene(value: object) -> tuple[Scene, str | None]:
     checks.known(data, ("toml",), "field", MessageError)
     checks.required(data, ("toml",), MessageError)
     text = checks.text(data["toml"], "scene.toml", "the text of a scene file", MessageError)
-    scene = parse_toml(text, "table", SceneError).build(lively)
+    scene = parse_toml(text, "table", SceneError).build(live_scene_from)
     if len(scene.items) > MOST_ITEMS:
         raise SceneError(f"found {len(scene.items)}, expected at most {MOST_ITEMS}", field="items", source="table")
     return scene, None

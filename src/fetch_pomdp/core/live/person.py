@@ -14,8 +14,23 @@ nearly sure.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
 from fetch_pomdp.core.model import Model, Rewards
+from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.turns import Turns
 
 LIVE_MODEL = Model(alpha=0.04, p_l=0.3, p_g=0.1, sigma=0.075, p_truth=0.95, turns=Turns())
 LIVE_REWARDS = Rewards(point=-2.8, pick_wrong=-20.0)
+
+
+def live_scene(name_or_path: str | Path) -> Scene:
+    """Load a scene as `Scene.load` does, before live people where its file does not say otherwise."""
+    return Scene.load(name_or_path, LIVE_MODEL, LIVE_REWARDS)
+
+
+def live_scene_from(data: Mapping[str, Any]) -> Scene:
+    """Build a scene from the fields of a scene file as `Scene.from_mapping` does, before live people."""
+    return Scene.from_mapping(data, LIVE_MODEL, LIVE_REWARDS)
