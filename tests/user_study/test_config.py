@@ -28,7 +28,7 @@ def test_the_template_is_the_paper_s_design_with_live_people(paper: UserStudy) -
         assert [trial.order for trial in trials] == list(range(54))
         assert set(Counter((trial.target, trial.paradigm) for trial in trials).values()) == {3}
         assert {(trial.person, trial.begun) for trial in trials} == {(person, 0.0)}
-        assert {trial.scene.model.p_l for trial in trials} == {LIVE_MODEL["p_l"]}
+        assert {trial.scene.model for trial in trials} == {LIVE_MODEL}
     assert {paper.trials(person)[0].layout for person in (0, 1)} == {"ambiguous", "unambiguous"}
     assert paper.trials(0)[0].scene_name == "ambiguous"
 
