@@ -121,8 +121,8 @@ def _check_token(token: str | None, field: str, host: str | None = None) -> None
         if host is not None:
             raise InputError(f"{host} needs a token, such as --token {secrets.token_urlsafe(16)}", field=field)
         return
-    if not all("!" <= letter <= "~" for letter in token):
-        raise InputError("expected ASCII letters, digits and punctuation, without spaces", field=field)
+    if not all(" " <= letter <= "~" for letter in token) or token != token.strip():
+        raise InputError("expected printable ASCII characters, without a space at either end", field=field)
     if len(token) < SHORTEST_TOKEN:
         raise InputError(f"found {len(token)} characters, expected {SHORTEST_TOKEN} or more", field=field)
 
