@@ -35,13 +35,18 @@ Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 
 def built_planner(name: str | None, **parameters: Any) -> Planner:
     """Return a planner by name, with the parameters that were given."""
-    return planner_named(name or DEFAULT, **parameters)
+    return planner_named(DEFAULT if name is None else name, **parameters)
 
 
 def loaded(scene: str, model: Path | None) -> Scene:
     """Return a scene by name or path, with the parameters of a model file if there is one."""
     table = Scene.load(scene)
     return table if model is None else with_model(table, model)
+
+
+def counted(number: int, thing: str) -> str:
+    """Return a number of things in words: "1 step", "1,000 steps"."""
+    return f"{number:,} {thing}" if number == 1 else f"{number:,} {thing}s"
 
 
 def as_json(asked: bool) -> bool:

@@ -99,7 +99,7 @@ class Agent:
         return self.update(Observation(tokenize(utterance or ""), ray))
 
     def update(self, observation: Observation) -> Utterance:
-        """Take in an observation; return how its words were understood. Raises ObservationError for what is none."""
+        """Take in an observation; return how its words were understood. Raises ObservationError for anything else."""
         if not isinstance(observation, Observation):
             raise ObservationError(f"found {shown(observation)}, expected Observation(...)", field="observation")
         utterance = language.split(observation.words, self.problem)
@@ -130,7 +130,7 @@ class Agent:
     def did(self, action: Action) -> None:
         """Go on from an action that the robot did: a question asked is i_r from now on.
 
-        Raises ActionError for what is no action, or about an item that the scene does not have.
+        Raises ActionError for anything but an action, or for one about an item that the scene does not have.
         """
         self._check(action)
         self.asked = asked_after(action, self.asked)
