@@ -45,7 +45,7 @@ class ObservationError(InputError):
 
 
 class BeliefError(InputError):
-    """A prior that is no distribution, or evidence that leaves no item possible."""
+    """A prior that is not a distribution, or evidence that leaves no item possible."""
 
 
 class ActionError(InputError):

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from fetch_pomdp.cli.options import Json, Seed, as_json
+from fetch_pomdp.cli.options import Json, Seed, as_json, counted
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
@@ -88,7 +88,7 @@ def _named(scene: Scene, number: int) -> str:
 
 def _write(out: Path, found: Calibration, of_turns: list[Interaction]) -> None:
     comments = [
-        f"Fitted to {found.interactions} interactions with {found.people} people; 90 % intervals (docs/calibrate.md).",
+        f"Fitted to {_size(found)}; 90 % intervals (docs/calibrate.md).",
         *(
             f"{one.name} {one.value:.4f} rad, {one.low:.4f} to {one.high:.4f}: the model has none."
             for one in found.bias
@@ -112,6 +112,11 @@ def _turns(interactions: list[Interaction]) -> dict[str, tuple[object, str]]:
         else:
             fitted[name] = value, "steps, as before"
     return fitted
+
+
+def _size(found: Calibration) -> str:
+    people = "1 person" if found.people == 1 else f"{found.people:,} people"
+    return f"{counted(found.interactions, 'interaction')} with {people}"
 
 
 def _range(one: Estimate) -> str:
@@ -144,7 +149,7 @@ def _one_to_json(found: Calibration) -> dict[str, Any]:
 def _show(
     found: Calibration, people: Mapping[str, Calibration], limiting: Mapping[str, Limits], console: Console
 ) -> None:
-    console.print(f"{found.interactions} interactions with {found.people} people, {found.steps} steps")
+    console.print(f"{_size(found)}, {counted(found.steps, 'step')}")
     table = Table("parameter", "value", "90 % interval", "the logs bound it", box=None, padding=(0, 2, 0, 0))
     for one in found.estimates:
         bounded = {"both": "", "none": "not at all", "low": "from below only", "high": "from above only"}[one.known]
@@ -180,7 +185,9 @@ def _each(people: Mapping[str, Calibration]) -> Table:
 def _show_confusion(found: Calibration, console: Console) -> None:
     if not found.confusion.said:
         return
-    console.print(f"\n{found.confusion.said} words said, {found.confusion.word_error:.1%} word error; heard for each:")
+    console.print(
+        f"\n{counted(found.confusion.said, 'word')} said, {found.confusion.word_error:.1%} word error; heard for each:"
+    )
     for said, heard in list(found.confusion.rows().items())[:MOST_CONFUSED]:
         shares = ", ".join(f"{word or 'nothing'} {share:.0%}" for word, share in heard.items())
         console.print(f"  {escape(said or 'nothing')}: {escape(shares)}")

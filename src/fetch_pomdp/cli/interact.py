@@ -84,8 +84,8 @@ def fetch(
     if target is not None:
         table.index(target, "target")
     header = Header(
-        scene=table, scene_name=named, planner=planner or DEFAULT, parameters=parameters, seed=seed or 0,
-        target=target, person=person, order=order, paradigm=paradigm,
+        scene=table, scene_name=named, planner=DEFAULT if planner is None else planner, parameters=parameters,
+        seed=seed or 0, target=target, person=person, order=order, paradigm=paradigm,
     )  # fmt: skip
     agent = header.agent()
     console = Terminal(stderr=json_lines)

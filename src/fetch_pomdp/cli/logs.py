@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from fetch_pomdp.cli.options import Json
+from fetch_pomdp.cli.options import Json, counted
 from fetch_pomdp.core.events import Acted
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.files.checking import Relived, checked, differences, relived, schema
@@ -28,7 +28,7 @@ Replay = Annotated[bool, typer.Option("--replay", help="Decide every action agai
 
 @app.command()
 def check(logs: Logs, replay: Replay = False) -> None:
-    """Print everything that is wrong with each file, one line a fault; exit code 2 if there is any.
+    """Print everything that is wrong with each file, a line for each fault; the exit code is 2 if there are any.
 
     A last line that a kill left half-written is named; readers leave it out, so it is no fault.
     """
@@ -39,7 +39,7 @@ def check(logs: Logs, replay: Replay = False) -> None:
         for fault in faults:
             print(fault, file=sys.stderr)
     if faulty:
-        print(f"{faulty} of {len(logs)} files with faults", file=sys.stderr)
+        print(f"{faulty} of {counted(len(logs), 'file')} with faults", file=sys.stderr)
         raise typer.Exit(2)
 
 
@@ -53,7 +53,7 @@ def _faults(path: Path, *, replay: bool) -> list[InputError]:
         return [error]
     torn = "" if found.torn is None else f"; line {found.torn} is half-written and left out"
     if not faults:
-        print(f"{path}: ok, {len(found.events)} events{torn}")
+        print(f"{path}: ok, {counted(len(found.events), 'event')}{torn}")
     elif torn:
         print(f"{path}{torn}")
     return faults

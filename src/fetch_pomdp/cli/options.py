@@ -36,7 +36,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 
 def built_planner(name: str | None, **parameters: Any) -> Planner:
     """Return a planner by name, with the parameters that were given."""
-    return planner_named(name or DEFAULT, **parameters)
+    return planner_named(DEFAULT if name is None else name, **parameters)
 
 
 def loaded(scene: str, model: Path | None) -> Scene:
@@ -49,6 +49,11 @@ def met_live(scene: str, model: Path | None) -> Scene:
     """Return a scene as `loaded`, before live people: with their model where neither file says otherwise."""
     table = live_scene(scene)
     return table if model is None else with_model(table, model)
+
+
+def counted(number: int, thing: str) -> str:
+    """Return a number of things in words: "1 step", "1,000 steps"."""
+    return f"{number:,} {thing}" if number == 1 else f"{number:,} {thing}s"
 
 
 def as_json(asked: bool) -> bool:

@@ -17,7 +17,7 @@ class Wait:
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """Point at an item and ask "this one?". Raises ActionError for an item that is no index."""
+    """Point at an item and ask "this one?". Raises ActionError for an item that is not an index."""
 
     item: int
 
@@ -28,7 +28,7 @@ class Point:
 
 @dataclass(frozen=True, slots=True)
 class Pick:
-    """Take an item to the person: the end of the interaction. Raises ActionError for an item that is no index."""
+    """Take an item to the person: the end of the interaction. Raises ActionError for an item that is not an index."""
 
     item: int
 

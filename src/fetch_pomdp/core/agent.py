@@ -118,7 +118,7 @@ class Agent:
     def update(self, observation: Observation) -> Utterance:
         """Take in an observation; return how its words were understood, by the paper's lists of answers.
 
-        Raises ObservationError for what is none.
+        Raises ObservationError for anything else.
         """
         if not isinstance(observation, Observation):
             raise ObservationError(f"found {shown(observation)}, expected Observation(...)", field="observation")
@@ -153,7 +153,7 @@ class Agent:
     def did(self, action: Action) -> None:
         """Go on from an action that the robot did: a question asked is i_r from now on.
 
-        Raises ActionError for what is no action, or about an item that the scene does not have.
+        Raises ActionError for anything but an action, or for one about an item that the scene does not have.
         """
         self._check(action)
         self.asked, self._acted = asked_after(action, self.asked), action

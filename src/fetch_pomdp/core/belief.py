@@ -20,7 +20,7 @@ MOST_ITEMS = 2**31  # 16 GiB of probabilities
 class Belief:
     """A distribution over the items, kept as logarithms so that no amount of evidence makes it invalid. Immutable.
 
-    Raises BeliefError for a prior that is no distribution (negative, not finite, or a sum that is not 1 within 1e-6).
+    Raises BeliefError for a prior that is not a distribution: negative, not finite, or a sum that is not 1 within 1e-6.
     """
 
     __slots__ = ("_log",)
@@ -88,7 +88,7 @@ class Belief:
 
 
 def _reals(given: npt.ArrayLike) -> Vector:
-    """Return real numbers as an array of any shape; of what is none, such as truth values and texts, an empty one."""
+    """Return real numbers as an array of any shape; an empty one for anything else, such as truth values and texts."""
     if isinstance(given, list | tuple) and any(isinstance(one, bool | np.bool_) for one in given):
         return np.empty(0)
     try:

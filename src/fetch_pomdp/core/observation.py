@@ -23,7 +23,7 @@ from fetch_pomdp.errors import ObservationError
 class Observation:
     """The words heard in a step, as `words.tokenize` gives them, and the pointing ray seen, if any.
 
-    Raises ObservationError for anything else: a text is no sequence of words.
+    Raises ObservationError for anything else, such as a text in place of its words.
     """
 
     words: tuple[str, ...] = ()

@@ -50,8 +50,7 @@ def _vocabulary_word(value: object, path: str) -> str:
 class Scene:
     """The items of a table, the head of the person before it, and the model measured there.
 
-    Raises SceneError for no items, ids used twice, an item in the middle of the head, or what is no Item, Model or
-    Rewards at all.
+    Raises SceneError for no items, ids used twice, an item in the middle of the head, or a field of another type.
     """
 
     items: tuple[Item, ...]

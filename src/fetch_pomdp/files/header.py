@@ -47,7 +47,7 @@ class Header:
         given = {name: value for name, value in parameters.items() if value is not None}
         changed = planner is not None and planner != self.planner
         merged = given if changed else {**self.parameters, **given}
-        chosen = planner_named(planner or self.planner, **merged)
+        chosen = planner_named(self.planner if planner is None else planner, **merged)
         return Agent(self.scene, chosen, seed=self.seed if seed is None else seed)
 
 

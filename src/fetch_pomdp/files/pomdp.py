@@ -27,7 +27,7 @@ RESPONSES = ("silent", "yes", "no")
 
 
 def checked_discount(value: object) -> float:
-    """Return a discount from above 0 to 1. Raises ModelError for one that is none.
+    """Return a discount above 0 and at most 1. Raises ModelError for any other.
 
     Choice: 0.999 unless given. The paper discounts nothing, but solvers of these formats divide by 1 - discount. A
     fetch takes some four steps, so that 0.999 changes its value by about 0.05.
@@ -71,7 +71,7 @@ def explained(model: Discrete) -> Iterator[str]:
 def pomdp_lines(model: Discrete, discount: float = DISCOUNT) -> Iterator[str]:
     """Yield the lines of a .pomdp file, without line ends.
 
-    Raises ModelError for a discount that is none, ExportError if the file would hold over MOST_NUMBERS numbers.
+    Raises ModelError for a discount out of its range, ExportError if the file would hold over MOST_NUMBERS numbers.
     """
     discount = checked_discount(discount)
     n_items = model.problem.n_items

@@ -30,7 +30,7 @@ Entry = tuple[str, str]  # values of the parents and the variable, and the numbe
 def pomdpx_lines(model: Discrete, discount: float = DISCOUNT) -> Iterator[str]:
     """Yield the lines of a .pomdpx file, without line ends.
 
-    Raises ModelError for a discount that is none, ExportError if the file would hold over MOST_NUMBERS numbers.
+    Raises ModelError for a discount out of its range, ExportError if the file would hold over MOST_NUMBERS numbers.
     """
     discount = checked_discount(discount)
     n_items, (words, _, gestures) = model.problem.n_items, model.n_classes
