@@ -36,7 +36,7 @@ class Scripted:
 
     def decide(
         self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
-    ) -> Decision:  # noqa: ARG002
+    ) -> Decision:
         return Decision(next(self.actions), np.nan, unvalued(problem), belief.probabilities)
 
 

@@ -63,7 +63,7 @@ class Guest:
     def close(self) -> None:
         pass
 
-    def join(self, timeout: float) -> None:  # noqa: ARG002
+    def join(self, timeout: float) -> None:
         self.joined.set()
 
 

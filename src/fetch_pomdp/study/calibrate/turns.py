@@ -34,7 +34,7 @@ class Tally:
             for field in dataclasses.fields(start)
             if isinstance(chances := getattr(start, field.name), tuple)
         }
-        return dataclasses.replace(start, **found)
+        return start.with_changes(found)
 
     def _chance(self, name: str, index: int, before: float) -> float:
         happened, steps = self.happened.get((name, index), 0), self.steps.get((name, index), 0)
