@@ -18,7 +18,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.turns import StepChances
 from fetch_pomdp.errors import ModelError, ObservationError, SceneError
 from tests.oracles import rays
-from tests.tables import table
+from tests.tables import live, table
 
 CUPS = [["cup", "red", "mug"], ["cup", "blue"]]
 
@@ -96,6 +96,13 @@ def test_what_is_classified() -> None:
 def test_a_number_of_rings_that_is_none(rings: Any) -> None:
     with pytest.raises(ModelError, match=r"rings: found .*, expected a whole number from 1 to 16"):
         Discrete(table(CUPS, p_g=0.0), rings)
+
+
+def test_live_people_are_refused() -> None:
+    with pytest.raises(
+        ModelError, match=r"^turns: found live people, expected none: the enumerated model knows [^\n]*$"
+    ):
+        Discrete(live(table(CUPS)))
 
 
 def test_too_many_items() -> None:

@@ -17,7 +17,7 @@ from fetch_pomdp.core.observation import log_likelihoods
 from fetch_pomdp.core.turns import constant_chances
 from fetch_pomdp.errors import ActionError, ModelError, ObservationError
 from tests.oracles.model import base_chance, gesture_density, response_chance
-from tests.tables import table, world_of
+from tests.tables import live, table, world_of
 
 pomdp_py = pytest.importorskip("pomdp_py")
 door: Any = importlib.import_module("fetch_pomdp.adapters.planning.pomdp_py")
@@ -100,6 +100,14 @@ def test_the_two_kinds_of_observations_are_not_mixed() -> None:
         classes.probability(door.FetchObservation(Observation()), state, action)
     with pytest.raises(ModelError, match="observations: found 'rays', expected one of full, classes"):
         door.fetch_agent(PROBLEM, "rays")
+
+
+@pytest.mark.parametrize("kind", ["full", "classes"])
+def test_live_people_are_refused(kind: str) -> None:
+    with pytest.raises(
+        ModelError, match=r"^turns: found live people, expected none: the agent of pomdp_py knows [^\n]*$"
+    ):
+        door.fetch_agent(live(PROBLEM), kind)
 
 
 def test_observe_is_our_bayes_filter() -> None:
