@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from typing import Any
 
@@ -30,6 +31,12 @@ def table(vocabularies: Sequence[Sequence[str]], places: Sequence[Point3] | None
 def twins(count: int, **model: Any) -> Problem:
     """Items that share their only word, before a person who never points: answers are all there is to learn."""
     return table([["thing"]] * count, p_g=0.0, **model)
+
+
+def live(problem: Problem) -> Problem:
+    """The same table with live people, who speak and point by where the talk stands."""
+    model = problem.model.with_changes({"turns": {}})
+    return Problem(dataclasses.replace(problem.scene, model=model))
 
 
 def world_of(problem: Problem) -> World:

@@ -114,7 +114,7 @@ class PlainSparse:
 
     def decide(
         self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
-    ) -> Decision:  # noqa: ARG002
+    ) -> Decision:
         """Choose the action with the highest sampled value."""
         weights = belief.probabilities
         weights = weights / weights.sum()

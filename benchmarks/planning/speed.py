@@ -37,7 +37,7 @@ def search_loop(times: int, belief: Vector, search: Search, seed: int, tables: T
     """Decide `times` times from compiled code, so that Python's calls stay out of the measurement."""
     total = 0.0
     for call in range(times):
-        total += plan(belief, NOBODY, search, seed + call, tables)[0]
+        total += plan(belief, NOBODY, 0, search, seed + call, tables)[0]
     return total
 
 
@@ -46,7 +46,7 @@ def fitted_loop(times: int, belief: Vector, ahead: Lookahead, seed: int) -> floa
     """Decide `times` times from compiled code, like `search_loop`."""
     total = 0.0
     for call in range(times):
-        total += step_ahead(belief, NOBODY, ahead.table, ahead.distinct, seed + call, 1, ahead.tables)[0]
+        total += step_ahead(belief, NOBODY, 0, ahead.table, ahead.distinct, seed + call, 1, ahead.tables)[0]
     return total
 
 

@@ -22,6 +22,6 @@ class Timed:
     ) -> Decision:
         """Pass the planner's decision on."""
         start = time.process_time()
-        decision = self.planner.decide(problem, belief, asked, rng=rng)
+        decision = self.planner.decide(problem, belief, asked, rng=rng, phase=phase)
         self.times.append(time.process_time() - start)
         return decision

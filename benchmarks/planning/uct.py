@@ -34,9 +34,9 @@ from fetch_pomdp.core.compiled import Integers, Vector, compiled, random_state, 
 from fetch_pomdp.core.gesture import ray_likelihood
 from fetch_pomdp.core.language.unigram import draw_word
 from fetch_pomdp.core.planners.base import pick_values, unvalued
-from fetch_pomdp.core.planners.kernels import NO, SILENT, YES
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.rays import turned
+from fetch_pomdp.core.turns import NO, SILENT, YES
 
 Style = Literal["random", "greedy", "aided"]
 MOST_ACTIONS = 10  # the longest look ahead
@@ -171,7 +171,8 @@ def draw_ahead(
     count = len(tables.smoothing)
     codes, likelihoods = np.empty((DRAWN, 3), np.int64), np.ones((DRAWN, count))
     for row in range(DRAWN):
-        word = draw_word(desired, uniform(state), uniform(state), tables)
+        spoken, which = uniform(state), uniform(state)
+        word = draw_word(desired, which, tables) if spoken < tables.p_l else -1
         codes[row, 0] = word
         if word >= 0:
             likelihoods[row] *= tables.smoothing
@@ -208,11 +209,11 @@ class RandomRollout(pomdp_py.RolloutPolicy):  # type: ignore[misc]
         self._moves = moves
         self.numbers = np.random.default_rng(0)
 
-    def get_all_actions(self, state: Hidden | None = None, history: Any = None) -> list[Move]:  # noqa: ARG002
+    def get_all_actions(self, state: Hidden | None = None, history: Any = None) -> list[Move]:
         """Return every action."""
         return self._moves
 
-    def rollout(self, state: Hidden, history: Any) -> Move:  # noqa: ARG002
+    def rollout(self, state: Hidden, history: Any) -> Move:
         """Return an action at random."""
         return self._moves[int(self.numbers.random() * len(self._moves))]
 
@@ -220,7 +221,7 @@ class RandomRollout(pomdp_py.RolloutPolicy):  # type: ignore[misc]
 class GreedyRollout(RandomRollout):
     """After the tree: the best pick by the exact belief of the simulated history."""
 
-    def rollout(self, state: Hidden, history: Any) -> Move:  # noqa: ARG002
+    def rollout(self, state: Hidden, history: Any) -> Move:
         """Return the best pick."""
         return self._moves[int(state.weights.argmax())]  # type: ignore[union-attr]
 
@@ -228,7 +229,7 @@ class GreedyRollout(RandomRollout):
 class AidedRollout(GreedyRollout):
     """The same, and a tree of the few actions that the exact belief leaves worth a thought."""
 
-    def get_all_actions(self, state: Hidden | None = None, history: Any = None) -> list[Move]:  # noqa: ARG002
+    def get_all_actions(self, state: Hidden | None = None, history: Any = None) -> list[Move]:
         """Return a wait, the best pick and the two best questions for the belief that came here first."""
         weights = state.weights  # type: ignore[union-attr]
         second, first = weights.argsort()[-2:]  # type: ignore[union-attr]

@@ -17,6 +17,7 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.turns import constant_chances
 from fetch_pomdp.errors import BeliefError
 from tests.oracles import model as oracle
 from tests.tables import table, world_of
@@ -206,7 +207,8 @@ def test_a_prior_is_normalised_within_its_tolerance() -> None:
 @pytest.mark.parametrize("asked", [None, 1])
 def test_parts_of_an_observation_are_independent(asked: int | None) -> None:
     ray = Ray((0.0, 0.0, 1.6), (0.5, 2.0, 0.75))
-    found = observations.log_likelihoods(Observation(("tea", "no"), ray), asked, UNEQUAL, 0.4).together()
+    seen, chances = Observation(("tea", "no"), ray), constant_chances(0.4, 0.1)
+    found = observations.log_likelihoods(seen, asked, UNEQUAL, chances).together()
     world = world_of(UNEQUAL)
     for item in range(4):
         expected = oracle.base_chance(["tea"], item, world) * oracle.response_chance(["no"], item, asked, world, 0.4)

@@ -15,9 +15,10 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.turns import StepChances
 from fetch_pomdp.errors import ModelError, ObservationError, SceneError
 from tests.oracles import rays
-from tests.tables import table
+from tests.tables import live, table
 
 CUPS = [["cup", "red", "mug"], ["cup", "blue"]]
 
@@ -73,9 +74,9 @@ def test_the_sampler_counted_in_classes() -> None:
     model: dict[str, Any] = {"p_g": 0.5, "p_truth": 0.8, "p_answer_again": 0.5}
     discrete = Discrete(table(CUPS, **model), rings=2)
     rng, draws = np.random.default_rng(3), 20_000
-    counts = np.zeros(discrete.n_classes)
+    counts, after_a_wait = np.zeros(discrete.n_classes), StepChances(0.95, 0.5, 0.95 * 0.5, 0.95 * 0.5)
     for _ in range(draws):
-        counts[discrete.classify(observations.sample(1, 0, discrete.problem, 0.95 * 0.5, rng))] += 1
+        counts[discrete.classify(observations.sample(1, 0, discrete.problem, after_a_wait, rng))] += 1
     chances = discrete.likelihood(0, Wait())[1]
     assert (np.abs(counts / draws - chances) <= 4 * np.sqrt(chances * (1 - chances) / draws) + 1e-3).all()
 
@@ -95,6 +96,13 @@ def test_what_is_classified() -> None:
 def test_a_number_of_rings_that_is_none(rings: Any) -> None:
     with pytest.raises(ModelError, match=r"rings: found .*, expected a whole number from 1 to 16"):
         Discrete(table(CUPS, p_g=0.0), rings)
+
+
+def test_live_people_are_refused() -> None:
+    with pytest.raises(
+        ModelError, match=r"^turns: found live people, expected none: the enumerated model knows [^\n]*$"
+    ):
+        Discrete(live(table(CUPS)))
 
 
 def test_too_many_items() -> None:

@@ -211,7 +211,7 @@ def test_the_only_item() -> None:
 
 def test_a_planner_that_values_nothing() -> None:
     class Stubborn:
-        def decide(self, problem: Any, belief: Any, asked: int | None, *, rng: Any, phase: int = 0) -> Decision:  # noqa: ARG002
+        def decide(self, problem: Any, belief: Any, asked: int | None, *, rng: Any, phase: int = 0) -> Decision:
             nothing = np.full(problem.n_items, NAN)
             return Decision(Pick(2), NAN, nothing, nothing)
 

@@ -27,7 +27,7 @@ from fetch_pomdp.files.checking import checked, differences, relived, schema
 from fetch_pomdp.files.events import event_to_json
 from fetch_pomdp.files.header import FIELDS, READ, STUDY_FIELDS, Header, header_from_json, header_to_json
 from fetch_pomdp.files.recordings import EventLog, read_recording
-from tests.files.test_recordings import events, headers
+from tests.files.test_recordings import SPEAKS, events, headers
 
 SCENE = Scene.load("ambiguous")
 TRIAL = Header(
@@ -170,7 +170,7 @@ def lived(path: Path, seed: int) -> tuple[list[np.ndarray[Any, Any]], Agent]:
             action = agent.decide().action
             happened: list[Event] = [Acted(action)]
             if not isinstance(action, Pick):
-                happened.append(Observed(sample(3, agent.asked, agent.problem, 0.9, rng)))
+                happened.append(Observed(sample(3, agent.asked, agent.problem, SPEAKS, rng)))
             for event in happened:
                 agent.take(event)
                 log.write(event)

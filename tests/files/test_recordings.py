@@ -27,12 +27,14 @@ from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.ports import Outcome, Word
 from fetch_pomdp.core.scene import Item, Scene
+from fetch_pomdp.core.turns import StepChances
 from fetch_pomdp.errors import BeliefError, EventError, InputError
 from fetch_pomdp.files.events import event_from_json, event_to_json
 from fetch_pomdp.files.header import Header, header_from_json, header_to_json
 from fetch_pomdp.files.recordings import EventLog, read_recording
 
 SCENE = Scene.load("ambiguous")
+SPEAKS = StepChances(words=0.95, points=0.1, desired=0.9, other=0.9)
 TABLE = Scene(
     items=(
         Item(id="Tasse à thé", position=(0.0, 2.0, 0.75), vocabulary=("cup",)),
@@ -193,7 +195,7 @@ def logged(path: Path, agent: Agent) -> list[Decision]:
             decided.append(decision)
             action = Wait() if isinstance(decision.action, Pick) else decision.action
             for event in (Acted(action, passes=decision.passes), None):
-                happened = event or Observed(sample(3, agent.asked, agent.problem, 0.9, rng))
+                happened = event or Observed(sample(3, agent.asked, agent.problem, SPEAKS, rng))
                 agent.take(happened)
                 log.write(happened)
     return decided

@@ -23,7 +23,7 @@ from fetch_pomdp.errors import ModelError, StudyError
 from fetch_pomdp.study.robocup.contest import Contest, play_group, without
 from fetch_pomdp.study.robocup.operators import UNKNOWN, Guests, group_scene
 from fetch_pomdp.study.robocup.rules import GroupRecord, Rules, game_score, group_score
-from tests.tables import twins
+from tests.tables import live, twins
 
 RULES = Rules()
 
@@ -205,6 +205,11 @@ def test_a_robot_that_insists_on_a_wrong_item_ends_without_it() -> None:
 )
 def test_a_wrong_guess_takes_its_item_out(belief: list[float], guessed: Sequence[int], expected: list[float]) -> None:
     assert without(Belief(belief), guessed).probabilities == pytest.approx(expected)
+
+
+def test_live_people_are_refused() -> None:
+    with pytest.raises(ModelError, match=r"^turns: found live people, expected none: Hand Me That knows [^\n]*$"):
+        play_group(live(twins(2)), NeverAsk(), 0, Silent([]), default_rng(0))
 
 
 def test_games_repeat_by_seed_and_planners_meet_the_same_groups() -> None:

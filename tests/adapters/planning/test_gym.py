@@ -14,7 +14,7 @@ from fetch_pomdp import Belief, ExactAnswers, Pick, Problem, Scene, simulate
 from fetch_pomdp.core.discrete import all_actions
 from fetch_pomdp.errors import ActionError, MissingExtraError, ModelError, SceneError
 from tests.oracles.model import posterior
-from tests.tables import world_of
+from tests.tables import live, world_of
 
 gymnasium = pytest.importorskip("gymnasium")
 module = importlib.import_module("fetch_pomdp.adapters.planning.gym")
@@ -127,6 +127,8 @@ def test_what_is_refused() -> None:
         module.FetchEnv(observation="pixels")
     with pytest.raises(SceneError, match="found no such scene or file"):
         module.FetchEnv("kitchen")
+    with pytest.raises(ModelError, match=r"^turns: found live people, expected none: the Gymnasium environment knows "):
+        module.FetchEnv(live(Problem(Scene.load("ambiguous"))).scene)
     env = module.FetchEnv()
     with pytest.raises(ActionError, match="expected a reset"):
         env.step(0)

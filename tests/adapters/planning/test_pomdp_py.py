@@ -14,9 +14,10 @@ import pytest
 from fetch_pomdp import Belief, Observation, Pick, Point, Problem, Ray, Scene, State, Wait, step
 from fetch_pomdp.core.discrete import all_actions
 from fetch_pomdp.core.observation import log_likelihoods
+from fetch_pomdp.core.turns import constant_chances
 from fetch_pomdp.errors import ActionError, ModelError, ObservationError
 from tests.oracles.model import base_chance, gesture_density, response_chance
-from tests.tables import table, world_of
+from tests.tables import live, table, world_of
 
 pomdp_py = pytest.importorskip("pomdp_py")
 door: Any = importlib.import_module("fetch_pomdp.adapters.planning.pomdp_py")
@@ -55,7 +56,8 @@ def test_observations_are_as_likely_as_in_the_model(seen: Observation, action: W
         ray = None if seen.ray is None else gesture_density(seen.ray.head, seen.ray.wrist, desired, world)
         expected *= 0.9 if ray is None else ray
         assert found == pytest.approx(expected)
-        assert found == pytest.approx(math.exp(log_likelihoods(seen, asked, problem, rate).together()[desired]))
+        together = log_likelihoods(seen, asked, problem, constant_chances(rate, 0.1)).together()
+        assert found == pytest.approx(math.exp(together[desired]))
 
 
 @pytest.mark.parametrize("kind", ["full", "classes"])
@@ -98,6 +100,14 @@ def test_the_two_kinds_of_observations_are_not_mixed() -> None:
         classes.probability(door.FetchObservation(Observation()), state, action)
     with pytest.raises(ModelError, match="observations: found 'rays', expected one of full, classes"):
         door.fetch_agent(PROBLEM, "rays")
+
+
+@pytest.mark.parametrize("kind", ["full", "classes"])
+def test_live_people_are_refused(kind: str) -> None:
+    with pytest.raises(
+        ModelError, match=r"^turns: found live people, expected none: the agent of pomdp_py knows [^\n]*$"
+    ):
+        door.fetch_agent(live(PROBLEM), kind)
 
 
 def test_observe_is_our_bayes_filter() -> None:

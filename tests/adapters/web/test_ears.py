@@ -50,7 +50,7 @@ class Opening:
         self.told: queue.Queue[SensorStatus] = queue.Queue()
         self.ears = Ears(self, ("marker",), Inbox(), lambda: self.time, self.told.put)  # type: ignore[arg-type]
 
-    def transcriber(self, vocabulary: Sequence[str]) -> Any:  # noqa: ARG002
+    def transcriber(self, vocabulary: Sequence[str]) -> Any:
         self.attempts.put(None)
         if (error := self.ends.get(timeout=120)) is not None:
             raise error

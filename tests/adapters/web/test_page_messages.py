@@ -69,7 +69,8 @@ def test_a_page_s_tables_expect_live_people_unless_their_file_does_not() -> None
     own = hello(scene={"toml": TABLE + "[model]\np_l = 0.9\n"}).scene.model
     assert own == LIVE_MODEL.with_changes({"p_l": 0.9})
     constant = hello(scene={"toml": TABLE + "[model]\nturns = false\n"}).scene.model
-    assert constant == LIVE_MODEL.with_changes({"turns": False}) and constant.turns is None
+    assert constant == LIVE_MODEL.with_changes({"turns": False})
+    assert constant.turns is None
 
 
 @pytest.mark.parametrize("scene", ["ambiguous", {"toml": TABLE + "[model]\nsigma = 0.1\nalpha = 0.5\n"}])

@@ -33,10 +33,10 @@ from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSamplin
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import MOST_STEPS, simulate
-from fetch_pomdp.errors import PlannerError
+from fetch_pomdp.errors import ModelError, PlannerError
 from tests.oracles.clairvoyant import Clairvoyant, Foresight, share_of, twin_values
 from tests.oracles.value import after, picks
-from tests.tables import table, twins, world_of
+from tests.tables import live, table, twins, world_of
 
 
 def priced(problem: Problem, **rewards: float) -> Problem:
@@ -218,6 +218,11 @@ def test_more_items_than_can_be_matched_by_closeness() -> None:
 def test_bad_numbers_are_refused(scenarios: int, seed: int, field: str) -> None:
     with pytest.raises(PlannerError, match=f"{field}: found"):
         fetch_pomdp.upper_bound(Problem(Scene.load("ambiguous")), scenarios, seed)
+
+
+def test_live_people_are_refused() -> None:
+    with pytest.raises(ModelError, match=r"^turns: found live people, expected none: the upper bound knows [^\n]*$"):
+        upper_bound(live(twins(2)), 2, 0)
 
 
 def test_bounds_of_twins_and_of_many_items() -> None:

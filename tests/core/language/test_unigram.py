@@ -16,6 +16,7 @@ from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.turns import constant_chances
 from tests.oracles import model as oracle
 from tests.tables import table, world_of
 
@@ -29,7 +30,7 @@ def base(words: str, problem: Problem) -> list[float]:
 
 
 def response(words: str, asked: int | None, problem: Problem, rate: float = 0.95) -> list[float]:
-    found = unigram.response_log_likelihood(tuple(words.split()), asked, problem, rate)
+    found = unigram.response_log_likelihood(tuple(words.split()), asked, problem, constant_chances(rate, 0.1))
     return [float(x) for x in np.exp(found)]
 
 
@@ -96,9 +97,9 @@ def test_chances_of_single_answers_and_silence_sum_to_one(asked: int | None) -> 
 
 def test_rate_is_halved_after_a_wait_by_p_answer_again() -> None:
     problem = table([["cup"], ["mug"]], p_answer_again=0.5, p_l=0.9)
-    assert unigram.answer_rate(Point(0), problem) == pytest.approx(0.9)
-    assert unigram.answer_rate(Wait(), problem) == pytest.approx(0.45)
-    assert unigram.answer_rate(Wait(), table([["cup"]])) == pytest.approx(0.95)
+    assert problem.step_chances(Point(0)).other == pytest.approx(0.9)
+    assert problem.step_chances(Wait()).other == pytest.approx(0.45)
+    assert table([["cup"]]).step_chances(Wait()).other == pytest.approx(0.95)
     assert response("yes", 0, problem, 0.45) == pytest.approx([0.45 * 0.99 / 4, 0.45 * 0.01 / 4])
     assert response("", 0, problem, 0.45) == pytest.approx([0.55, 0.55])
 
@@ -149,7 +150,7 @@ def assert_counts_match(counts: Counter[str], chances: dict[str, float], draws: 
 @pytest.mark.parametrize("desired", [0, 1, 2])
 def test_base_sampler_counted_against_the_likelihood(desired: int) -> None:
     rng, draws = np.random.default_rng(desired), 20_000
-    drawn = Counter(" ".join(unigram.sample_base(desired, UNEQUAL, rng)) for _ in range(draws))
+    drawn = Counter(" ".join(unigram.sample_base(desired, UNEQUAL, 0.95, rng)) for _ in range(draws))
     chances = {word: base(word, UNEQUAL)[desired] for word in (*UNEQUAL.words, "")}
     assert_counts_match(drawn, chances, draws)
 
@@ -159,7 +160,8 @@ def test_base_sampler_counted_against_the_likelihood(desired: int) -> None:
 def test_response_sampler_counted_against_the_likelihood(asked: int | None, rate: float) -> None:
     rng, draws = np.random.default_rng(7), 20_000
     problem = table([["cup"], ["mug"]], p_truth=0.8)
-    drawn = Counter(" ".join(unigram.sample_response(0, asked, problem, rate, rng)) for _ in range(draws))
+    of = constant_chances(rate, 0.1)
+    drawn = Counter(" ".join(unigram.sample_response(0, asked, problem, of, rng)) for _ in range(draws))
     chances = {word: response(word, asked, problem, rate)[0] for word in (*ANSWERS, "")}
     assert_counts_match(drawn, chances, draws)
 
@@ -168,8 +170,8 @@ def test_word_selected_by_the_largest_number_exists() -> None:
     almost = math.nextafter(1.0, 0.0)
     for problem in (AMBIGUOUS, UNEQUAL, table([["a"], ["b", "c"]], alpha=1e-9), table([["a"], ["b", "c"]], alpha=1e9)):
         for item in range(problem.n_items):
-            assert 0 <= unigram.draw_word(item, 0.0, almost, problem.tables) < len(problem.words)
-            assert unigram.draw_word(item, almost, 0.0, problem.tables) == -1
+            assert 0 <= unigram.draw_word(item, almost, problem.tables) < len(problem.words)
+            assert unigram.sample_base(item, problem, 0.0, np.random.default_rng(0)) == ()
 
 
 def test_an_utterance_says_what_its_last_answer_means() -> None:

@@ -340,13 +340,13 @@ class QuickRobot:
         self.stopped.clear()
         return Outcome.STOPPED if self.stopped.wait(0.1) else Outcome.DONE
 
-    def point(self, item: Item) -> Outcome:  # noqa: ARG002
+    def point(self, item: Item) -> Outcome:
         return self._act()
 
-    def pick(self, item: Item) -> Outcome:  # noqa: ARG002
+    def pick(self, item: Item) -> Outcome:
         return self._act()
 
-    def say(self, text: str) -> Outcome:  # noqa: ARG002
+    def say(self, text: str) -> Outcome:
         return self._act()
 
     def stop(self) -> None:

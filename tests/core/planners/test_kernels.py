@@ -10,8 +10,9 @@ import numpy.typing as npt
 import pytest
 
 from fetch_pomdp.core.compiled import random_state, standard_normal, uniform
-from fetch_pomdp.core.planners.kernels import NO, NOBODY, SILENT, YES, answered, draw_item, hear
+from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, Turn, answered, draw_item, hear
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.turns import NO, SILENT, YES
 from tests.oracles import model as oracle
 from tests.oracles import rays as brute
 from tests.tables import table, world_of
@@ -25,9 +26,9 @@ PRIOR = [0.5, 0.2, 0.3]
 
 def heard(problem: Problem, desired: int, draws: int, prior: list[float] = PRIOR) -> Array:
     belief, found = np.array(prior), np.empty((draws, len(prior)))
-    state = random_state(5)
+    state, smoothed = random_state(5), float(belief @ problem.tables.smoothing)
     for draw in range(draws):
-        hear(belief, float(belief @ problem.tables.smoothing), desired, found[draw], state, problem.tables)
+        hear(belief, smoothed, desired, Turn(NOBODY, 0, WAITED), found[draw], state, problem.tables)
     return found
 
 
@@ -127,9 +128,10 @@ def test_what_was_impossible_stays_so() -> None:
 @pytest.mark.parametrize("about", [0, 2])
 @pytest.mark.parametrize(("answer", "words"), [(YES, ["yes"]), (NO, ["no"])])
 def test_answers_equal_the_oracle(about: int, answer: int, words: list[str]) -> None:
-    problem = table(VOCABULARIES, p_truth=0.85)
-    world, rate, belief = world_of(problem), 0.4, np.empty(3)
-    chance = answered(np.array(PRIOR), about, answer, rate, belief, problem.tables)
+    rate, belief = 0.4, np.empty(3)
+    problem = table(VOCABULARIES, p_truth=0.85, p_l=rate)
+    world = world_of(problem)
+    chance = answered(np.array(PRIOR), Turn(about, 0, ASKED), answer, belief, problem.tables)
     assert belief.tolist() == pytest.approx(oracle.posterior(PRIOR, words, None, about, world), rel=1e-9)
     expected = sum(p * rate * oracle.class_chance(answer == YES, i, about, world) for i, p in enumerate(PRIOR))
     assert chance == pytest.approx(expected, rel=1e-9)
@@ -137,8 +139,8 @@ def test_answers_equal_the_oracle(about: int, answer: int, words: list[str]) -> 
 
 @pytest.mark.parametrize(("about", "answer", "expected"), [(1, SILENT, 0.6), (NOBODY, SILENT, 1.0), (NOBODY, YES, 1.0)])
 def test_silence_and_no_question_move_nothing(about: int, answer: int, expected: float) -> None:
-    belief = np.empty(3)
-    assert answered(np.array(PRIOR), about, answer, 0.4, belief, table(VOCABULARIES).tables) == pytest.approx(expected)
+    belief, tables = np.empty(3), table(VOCABULARIES, p_l=0.4).tables
+    assert answered(np.array(PRIOR), Turn(about, 0, ASKED), answer, belief, tables) == pytest.approx(expected)
     assert belief.tolist() == PRIOR
 
 

@@ -24,10 +24,10 @@ from fetch_pomdp.core.generative import State, step
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import POSITIVE
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.kernels import NO, SILENT, YES
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.problem import Problem, constant_only
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import MOST_STEPS
+from fetch_pomdp.core.turns import NO, SILENT, YES
 from fetch_pomdp.errors import ActionError, ModelError, SceneError
 from fetch_pomdp.extras import load
 
@@ -50,7 +50,8 @@ class FetchEnv(gymnasium.Env):  # type: ignore[misc,name-defined]
     "response": 0 none, 1 yes, 2 no, "pointing": 0 or 1, "ray": (3,) unit vector of a pointing arm, or zeros, "asked"}.
     Before the first step and after a pick nothing is perceived.
 
-    Raises SceneError or ModelError for a scene that is none, ModelError for an unknown kind of observation.
+    Raises SceneError or ModelError for a scene that is none, ModelError for an unknown kind of observation and for live
+    people (`turns`).
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": []}
@@ -60,6 +61,7 @@ class FetchEnv(gymnasium.Env):  # type: ignore[misc,name-defined]
             found = f"found {checks.shown(observation)}, expected one of {', '.join(VIEWS)}"
             raise ModelError(found, field="observation")
         self.problem = Problem(scene if isinstance(scene, Scene) else Scene.load(scene))
+        constant_only(self.problem, "the Gymnasium environment")
         self.actions = all_actions(self.problem.n_items)
         self.action_space = gymnasium.spaces.Discrete(len(self.actions))
         self.observation_space = _space(self.problem, observation)

@@ -25,7 +25,7 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.discrete import Discrete, all_actions
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.problem import Problem, constant_only
 from fetch_pomdp.errors import ActionError, ModelError, ObservationError
 from fetch_pomdp.extras import load
 
@@ -193,11 +193,12 @@ def fetch_agent(problem: Problem, observations: Kind = "full", *, seed: int = 0)
 
     observations: "full" perceives as the model does, so that no two rays are alike; "classes" as `core.discrete` does,
     which a tree search that goes deep, and POMCP, need. seed: of the models; pomdp_py draws the states of a Histogram
-    from Python's own `random`. Raises ModelError for another kind of observations.
+    from Python's own `random`. Raises ModelError for another kind of observations, and for live people (`turns`).
     """
     if observations not in KINDS:
         found = f"found {shown(observations)}, expected one of {', '.join(KINDS)}"
         raise ModelError(found, field="observations")
+    constant_only(problem, "the agent of pomdp_py")
     rng = np.random.default_rng(seed)
     perception = (ClassModel if observations == "classes" else ObservationModel)(problem, rng)
     return pomdp_py.Agent(

@@ -152,7 +152,7 @@ def answered(heard: Vector, turn: Turn, answer: int, belief: Vector, tables: Tab
         for item in range(len(heard)):
             belief[item] = heard[item] * (others / chance)
         belief[about] = heard[about] * own / chance
-    return (1.0 - rate if answer == SILENT else rate) * chance
+    return float((1.0 - rate if answer == SILENT else rate) * chance)
 
 
 @inlined

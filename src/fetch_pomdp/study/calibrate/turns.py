@@ -34,7 +34,7 @@ class Tally:
             for field in dataclasses.fields(start)
             if isinstance(chances := getattr(start, field.name), tuple)
         }
-        return dataclasses.replace(start, **found)
+        return start.with_changes(found)
 
     def counted(self, name: str) -> str:
         """Return how many steps each chance of a field was counted in, for a person to read."""

@@ -16,7 +16,7 @@ from numpy.random import Generator
 from fetch_pomdp.core.action import Action, Pick, Point
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Planner
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.problem import Problem, constant_only
 from fetch_pomdp.core.simulation import MOST_STEPS
 from fetch_pomdp.study.robocup.operators import Guests, Operator, Operators, group_scene
 from fetch_pomdp.study.robocup.rules import GroupRecord, Rules, game_score, whole
@@ -25,7 +25,11 @@ DIFFERENT_GROUPS = 40
 
 
 def play_group(problem: Problem, planner: Planner, desired: int, operator: Operator, robot: Generator) -> GroupRecord:
-    """Play one group: a wrong guess takes its item out, and the robot goes on. It guesses each item once at most."""
+    """Play one group: a wrong guess takes its item out, and the robot goes on. It guesses each item once at most.
+
+    Raises ModelError for live people (`turns`).
+    """
+    constant_only(problem, "Hand Me That")
     belief, asked = Belief.uniform(problem.n_items), None
     guessed: list[int] = []
     questions = waits = 0

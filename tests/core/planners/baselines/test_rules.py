@@ -18,8 +18,9 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Planner, code_of, decide_many
 from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk, ChaiRule, InformationGain, OneShot, answer_information
 from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, WilliamsYoung
-from fetch_pomdp.core.planners.kernels import YES, answered
+from fetch_pomdp.core.planners.kernels import ASKED, Turn, answered
 from fetch_pomdp.core.simulation import simulate
+from fetch_pomdp.core.turns import YES
 from fetch_pomdp.errors import PlannerError
 from tests.core.planners.baselines.acting import AMBIGUOUS, act
 from tests.tables import table, twins
@@ -100,7 +101,7 @@ def test_information_is_the_entropy_that_answers_take(weights: list[float], p_tr
         kept = left * entropy(belief)
         for answer in (YES, YES + 1):
             after = np.empty(len(belief))
-            chance = answered(belief, item, answer, p_l, after, problem.tables)
+            chance = answered(belief, Turn(item, 0, ASKED), answer, after, problem.tables)
             kept += chance * entropy(after) if chance > 0 else 0.0
         assert found == pytest.approx(entropy(belief) - kept, abs=1e-9)
 

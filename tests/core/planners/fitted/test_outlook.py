@@ -21,8 +21,9 @@ def outlook(problem: Problem, belief: np.ndarray, rays: int, seed: int = 0) -> l
     smoothed, found = smoothed_mass(belief, problem.tables), []
     for number in range(outlook_size(distinct, problem.tables)):
         heard = np.empty(len(belief))
-        chance = look(number, belief, smoothed, heard, state, distinct, problem.tables)
-        found.append((chance, heard))
+        seen = look(number, belief, smoothed, 0, heard, state, distinct, problem.tables)
+        assert seen.wait == seen.ask, "the paper's people say as much after a question"
+        found.append((seen.wait, heard))
     return found
 
 

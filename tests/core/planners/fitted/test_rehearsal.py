@@ -59,10 +59,10 @@ class Greedy:
     def __init__(self, fixed: ValueTable) -> None:
         self.table = fixed
 
-    def decide(self, problem: Problem, belief: object, asked: int | None, *, rng: object, phase: int = 0) -> Decision:  # noqa: ARG002
+    def decide(self, problem: Problem, belief: object, asked: int | None, *, rng: object, phase: int = 0) -> Decision:
         chances = belief.probabilities  # type: ignore[attr-defined]
         about = -1 if asked is None else asked
-        action = table_action(chances, about, leading(chances), self.table, problem.tables)
+        action = table_action(chances, about, phase, leading(chances), self.table, problem.tables)
         return Decision(action_of(action, problem), 0.0, unvalued(problem), pick_values(chances, problem))
 
 

@@ -30,7 +30,7 @@ from fetch_pomdp.core.planners.fitted.table import (
     table_action,
     with_other,
 )
-from fetch_pomdp.core.planners.kernels import leading
+from fetch_pomdp.core.planners.kernels import ASKED, WAITED, Came, Turn, leading
 from tests.oracles.model import word_chance
 from tests.tables import table, world_of
 
@@ -65,14 +65,14 @@ def plain_value(belief: list[float], asked: int | None) -> float:
 beliefs = st.permutations([0.43, 0.29, 0.19, 0.09]) | st.permutations([0.9, 0.07, 0.02, 0.01])
 
 
-@given(belief=beliefs, about=st.sampled_from([None, 0, 1, 2, 3]), rate=st.sampled_from([0.95, 0.475]))
-def test_values_after_an_answer_are_sums_over_answers(belief: list[float], about: int | None, rate: float) -> None:
-    heard = np.array(belief)
+@given(belief=beliefs, about=st.sampled_from([None, 0, 1, 2, 3]), kind=st.sampled_from([ASKED, WAITED]))
+def test_values_after_an_answer_are_sums_over_answers(belief: list[float], about: int | None, kind: int) -> None:
+    heard, rate = np.array(belief), 0.95 if kind == ASKED else 0.475
     top = leading(heard)
     asked = -1 if about is None else about
     classes = with_other(classes_of(top, TABLE.breaks, PROBLEM.tables), asked, top, TABLE.breaks, PROBLEM.tables)
     own = 0.0 if about is None else belief[about]
-    found = answered_value(TABLE, classes, top, asked, own, rate, PROBLEM.tables)
+    found = answered_value(TABLE, classes, top, own, Turn(asked, 0, kind), Came(0, 0), PROBLEM.tables)
     if about is None:
         assert found == pytest.approx(plain_value(belief, None))
         return
@@ -117,7 +117,7 @@ def test_the_start_is_the_closed_form_of_a_question() -> None:
 def test_the_tables_action_has_the_nodes_value(belief: list[float], asked: int | None) -> None:
     array, about = np.array(belief), -1 if asked is None else asked
     top = leading(array)
-    action = table_action(array, about, top, TABLE, PROBLEM.tables)
+    action = table_action(array, about, 0, top, TABLE, PROBLEM.tables)
     kind = kind_of(about, top.first, top.second)
     share = 0.0 if asked is None else belief[asked] / top.b2
     cls = 1 if {top.first, top.second} == {0, 1} else 0

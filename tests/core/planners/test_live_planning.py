@@ -1,0 +1,103 @@
+"""Planning with live people: exact answers against enumeration, and the default against simpler planners."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+
+import numpy as np
+import pytest
+from numpy.random import default_rng
+
+from fetch_pomdp.core.action import Wait
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.planners.base import decide_many
+from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
+from fetch_pomdp.core.planners.fitted.planner import FittedValue
+from fetch_pomdp.core.planners.kernels import NOBODY
+from fetch_pomdp.core.planners.search.planner import ExactAnswers
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.simulation import Summary, simulate
+from fetch_pomdp.core.turns import LEAST, QUESTIONS, UNBEGUN, Turns
+from tests.oracles.talking import Person, action_values, all_talks
+from tests.tables import live, table, world_of
+
+NO, YES = LEAST, 1 - LEAST  # as good as never and always
+CERTAIN = Turns(
+    words_unbegun=(NO, YES), words_pointed=(NO, YES), words_due=(YES, NO), words_said=(NO, NO),
+    words_heard=(NO, NO), words_silent=(NO, YES), words_denied=(YES, NO),
+    points_unbegun=(YES, NO), points_pointed=(YES, YES), points_due=(NO, YES), points_said=(NO, YES),
+    points_heard=(NO, NO), points_silent=(YES, NO), points_denied=(NO, NO),
+    answers_desired=(0.5, 0.7, 0.6, 0.2), answers_other=(0.25, 0.45, 0.35, 0.3), answers_settled=(0.1,),
+    patience=2, question=1,
+)  # fmt: skip
+QUICK = dataclasses.replace(CERTAIN, answers_desired=(0.95, 0.9, 0.9, 0.8), answers_other=(0.1, 0.3, 0.9, 0.05))
+# Silence tells nothing in the step of a question, and much in the next.
+EQUAL = dataclasses.replace(
+    CERTAIN, answers_desired=(0.6, 0.6, 0.9, 0.1), answers_other=(0.6, 0.6, 0.1, 0.9), question=2
+)
+HERE = (0.0, 2.0, 0.75)
+
+
+@pytest.mark.parametrize("turns", [CERTAIN, QUICK, EQUAL])
+@pytest.mark.parametrize("asked", [None, 0, 1])
+@pytest.mark.parametrize("belief", [[0.5, 0.5], [0.75, 0.25], [0.1, 0.9]])
+def test_exact_answers_equals_enumeration_from_every_phase(
+    turns: Turns, asked: int | None, belief: list[float]
+) -> None:
+    """Alike in words and place, so that answers are all there is to learn, and words and pointing move the talk."""
+    problem = table([["thing"]] * 2, [HERE, HERE], turns=turns, sigma=0.02)
+    world = world_of(problem)
+    chances = {field.name: getattr(turns, field.name) for field in dataclasses.fields(Turns)}
+    person, planner = Person(chances, turns.patience, turns.question), ExactAnswers(depth=3, width=1, leaf="pick")
+    waits = set()
+    for phase, talk in enumerate(all_talks(turns.patience)):
+        found = planner.decide(problem, Belief(belief), asked, rng=default_rng(phase), phase=phase)
+        expected = action_values(belief, asked, talk, 3, world, person)
+        assert found.wait == pytest.approx(expected.wait, abs=1e-9), talk
+        assert found.point.tolist() == pytest.approx(expected.point, abs=1e-9), talk
+        assert found.pick.tolist() == pytest.approx(expected.pick, abs=1e-9)
+        assert found.value == pytest.approx(expected.best, abs=1e-9)
+        waits.add(round(found.wait, 9))
+    assert asked is None or len(waits) > 1, "phases that make no difference test nothing"
+
+
+# The default planner with our simulated people's chances.
+
+
+@functools.cache
+def with_live_people(scene: str) -> Problem:
+    return live(Problem(Scene.load(scene)))
+
+
+@functools.cache
+def earned(scene: str, planner: str) -> Summary:
+    return simulate(with_live_people(scene), planner_named(planner), 3_000, seed=4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", ["ambiguous", "unambiguous"])
+@pytest.mark.parametrize("other", ["threshold", "exact"])
+def test_the_default_earns_no_less(scene: str, other: str) -> None:
+    ours, theirs = earned(scene, DEFAULT), earned(scene, other)
+    error = math.hypot(ours.standard_error, theirs.standard_error)
+    assert ours.mean_return >= theirs.mean_return - 2 * error
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", ["ambiguous", "unambiguous"])
+def test_the_default_waits_until_something_has_begun(scene: str) -> None:
+    rng = default_rng(0)
+    beliefs = np.vstack([np.full((1, 6), 1 / 6), np.eye(6), rng.dirichlet(np.full(6, 0.3), 120)])
+    asked, problem = rng.integers(-1, 6, len(beliefs)), with_live_people(scene)
+    for phase in range(UNBEGUN * QUESTIONS, (UNBEGUN + 1) * QUESTIONS):
+        phases = np.full(len(beliefs), phase)
+        many = decide_many(FittedValue(), problem, beliefs, asked, rng=rng, phases=phases)
+        assert (many == NOBODY).all()
+        for planner in (FittedValue(), FittedValue(budget_ms=1.0)):
+            for belief, about in zip(beliefs[:20], asked, strict=False):
+                last = None if about < 0 else int(about)
+                decision = planner.decide(problem, Belief(belief), last, rng=rng, phase=phase)
+                assert decision.action == Wait()
