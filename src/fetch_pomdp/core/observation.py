@@ -9,7 +9,7 @@ from numpy.random import Generator
 
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core import gesture
-from fetch_pomdp.core.action import Action, Point
+from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
@@ -90,5 +90,5 @@ def phase_after(observation: Observation, action: Action, problem: Problem, phas
     if utterance.response:
         answer = YES if utterance.response[-1] in POSITIVE else NO
     seen = observation.ray is not None and gesture.is_pointing(observation.ray, problem)
-    following = problem.tables.following[phase, int(isinstance(action, Point)), int(bool(utterance.base)), int(seen)]
+    following = problem.tables.following[phase, int(not isinstance(action, Wait)), int(bool(utterance.base)), int(seen)]
     return int(following[answer])

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fetch_pomdp.core.action import Action, Point
+from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.rays import LARGEST_EXACT, miss_chances, unit_directions
@@ -49,7 +49,7 @@ class Tables(NamedTuple):
     following: Integers  # (phases, 2, 2, 2, 3)
     alike: Integers  # (phases,)
     begun: Integers  # (phases,)
-    open: Integers  # (phases,)
+    answerable: Integers  # (phases,)
 
 
 def constant_only(problem: Problem, what: str) -> None:
@@ -105,7 +105,7 @@ class Problem:
         under the paper's constant chances, in a step after a wait p_l is multiplied by p_answer_again (1 by default:
         the paper to the letter).
         """
-        return StepChances(*self.tables.chances[phase, int(isinstance(action, Point))].tolist())
+        return StepChances(*self.tables.chances[phase, int(not isinstance(action, Wait))].tolist())
 
     def with_exact_rays(self) -> Problem:
         """Return the problem under the likelihood of the rays' sampler. Raises ModelError for too many items."""
@@ -162,5 +162,5 @@ class Problem:
             following=phases.following,
             alike=phases.alike,
             begun=phases.begun,
-            open=phases.open,
+            answerable=phases.answerable,
         )

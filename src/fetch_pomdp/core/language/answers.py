@@ -150,9 +150,10 @@ class Lexicon:
         return found
 
     def _written(self, words: Sequence[str], meaning: Meaning) -> list[str]:
-        """Return a phrase as the paper's reader reads it: as it is, if it reads that as it is meant."""
+        """Return a phrase as the paper's reader reads it: as it is, if it reads that as it is meant, wherever it stands."""
         responses = {MEANINGS[word] for word in words if word in RESPONSES}
-        if responses == {meaning} and self.owned.isdisjoint(words):
+        anywhere = {each.meaning for each in self._found(words, After.NOTHING)}
+        if responses == anywhere == {meaning} and self.owned.isdisjoint(words):
             return list(words)
         return [] if STAND_INS[meaning] in self.owned else [STAND_INS[meaning]]
 
