@@ -150,7 +150,7 @@ class Lexicon:
         return found
 
     def _written(self, words: Sequence[str], meaning: Meaning) -> list[str]:
-        """Return a phrase as the paper's reader reads it: as it is, if it reads that as it is meant, wherever it stands."""
+        """Return a phrase as the paper's reader reads it: as it is, if it reads that as meant wherever it stands."""
         responses = {MEANINGS[word] for word in words if word in RESPONSES}
         anywhere = {each.meaning for each in self._found(words, After.NOTHING)}
         if responses == anywhere == {meaning} and self.owned.isdisjoint(words):
