@@ -49,7 +49,7 @@ class Tables(NamedTuple):
     following: Integers  # (phases, 2, 2, 2, 3)
     alike: Integers  # (phases,)
     begun: Integers  # (phases,)
-    answerable: Integers  # (phases,)
+    awaited: Integers  # (phases,)
 
 
 def constant_only(problem: Problem, what: str) -> None:
@@ -162,5 +162,5 @@ class Problem:
             following=phases.following,
             alike=phases.alike,
             begun=phases.begun,
-            answerable=phases.answerable,
+            awaited=phases.awaited,
         )
