@@ -50,7 +50,7 @@ def test_unambiguous_layout() -> None:
 def test_defaults_are_the_paper_s() -> None:
     assert dataclasses.asdict(Model()) == {
         "alpha": 0.2, "p_l": 0.95, "p_g": 0.1, "sigma": 0.15, "p_truth": 0.99, "gesture_threshold": 0.3,
-        "gesture_likelihood": "eq7", "p_answer_again": 1.0,
+        "gesture_likelihood": "eq7", "p_answer_again": 1.0, "turns": None,
     }  # fmt: skip
     assert dataclasses.asdict(Rewards()) == {"pick_correct": 10.0, "pick_wrong": -12.5, "point": -6.0, "wait": -1.0}
     assert list(POSITIVE) == YES_WORDS
