@@ -41,16 +41,19 @@ EQUAL = dataclasses.replace(
 HERE = (0.0, 2.0, 0.75)
 
 
+@pytest.mark.parametrize("pointing", [True, False])
 @pytest.mark.parametrize("turns", [CERTAIN, QUICK, EQUAL])
 @pytest.mark.parametrize("asked", [None, 0, 1])
 @pytest.mark.parametrize("belief", [[0.5, 0.5], [0.75, 0.25], [0.1, 0.9]])
 def test_exact_answers_equals_enumeration_from_every_phase(
-    turns: Turns, asked: int | None, belief: list[float]
+    turns: Turns, asked: int | None, belief: list[float], pointing: bool
 ) -> None:
     """Alike in words and place, so that answers are all there is to learn, and words and pointing move the talk."""
-    problem = table([["thing"]] * 2, [HERE, HERE], turns=turns, sigma=0.02)
+    problem = table([["thing"]] * 2, [HERE, HERE], turns=turns, sigma=0.02, p_g=0.1 if pointing else 0.0)
     world = world_of(problem)
     chances = {field.name: getattr(turns, field.name) for field in dataclasses.fields(Turns)}
+    if not pointing:
+        chances |= {name: (0.0, 0.0) for name in chances if name.startswith("points")}
     person, planner = Person(chances, turns.patience, turns.question), ExactAnswers(depth=3, width=1, leaf="pick")
     waits = set()
     for phase, talk in enumerate(all_talks(turns.patience)):
