@@ -12,8 +12,8 @@ from numpy.random import default_rng
 
 from fetch_pomdp.core.action import Wait
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.planners.base import decide_many
-from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
+from fetch_pomdp.core.planners.base import code_of, decide_many
+from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.kernels import NOBODY
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
@@ -104,3 +104,30 @@ def test_the_default_waits_until_something_has_begun(scene: str) -> None:
                 last = None if about < 0 else int(about)
                 decision = planner.decide(problem, Belief(belief), last, rng=rng, phase=phase)
                 assert decision.action == Wait()
+
+
+@pytest.mark.parametrize("name", sorted(PLANNERS))
+@pytest.mark.parametrize("phase", [4, 12, 14, 41])  # pointed; heard, and a question open; said and denied
+def test_every_planner_decides_in_a_phase(name: str, phase: int) -> None:
+    problem, planner, belief = with_live_people("ambiguous"), planner_named(name), [0.05, 0.1, 0.35, 0.4, 0.06, 0.04]
+    decision = planner.decide(problem, Belief(belief), 2, rng=default_rng(0), phase=phase)
+    assert decision.pick == pytest.approx(22.5 * np.array(belief) - 12.5, abs=1e-9)
+    assert isinstance(decision.action, Wait) or 0 <= decision.action.item < 6
+    phases = np.full(2, phase)
+    many = decide_many(planner, problem, np.array([belief] * 2), np.array([2, 2]), rng=default_rng(0), phases=phases)
+    assert many[0] == code_of(decision.action, problem)
+
+
+@pytest.mark.slow
+def test_many_decisions_are_those_one_by_one() -> None:
+    rng, problem, planner = default_rng(2), with_live_people("ambiguous"), FittedValue()
+    beliefs, asked = rng.dirichlet(np.full(6, 0.4), 200), rng.integers(-1, 6, 200)
+    phases = rng.integers(len(problem.tables.begun), size=200)
+    many = decide_many(planner, problem, beliefs, asked, rng=default_rng(3), phases=phases)
+    robot, one_by_one = default_rng(3), list[int]()
+    for belief, about, phase in zip(beliefs, asked, phases, strict=True):
+        last = None if about < 0 else int(about)
+        decision = planner.decide(problem, Belief(belief), last, rng=robot, phase=int(phase))
+        one_by_one.append(code_of(decision.action, problem))
+    assert many.tolist() == one_by_one
+    assert len(set(one_by_one)) > 10
