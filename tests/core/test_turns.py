@@ -113,7 +113,7 @@ def test_what_planners_read_of_a_phase() -> None:
     phases, talks = phases_of(numbered(4)), all_talks(4)
     for phase, talk in enumerate(talks):
         assert phases.begun[phase] == (talk.said or talk.pointed)
-        assert phases.open[phase] == (talk.question in ("open", "open long"))
+        assert phases.awaited[phase] == (talk.question in ("open", "open long"))
     by_group: dict[int, set[tuple[str, str]]] = {}
     for phase, talk in enumerate(talks):
         name = group(dataclasses.replace(talk, question="none"), 4)
@@ -135,7 +135,7 @@ def test_the_paper_has_one_phase() -> None:
     assert tables.following.shape == (1, 2, 2, 2, 3)
     assert not tables.following.any()
     assert tables.chances[0].tolist() == [[0.95, 0.1, 0.95, 0.95]] * 2
-    assert tables.begun.tolist() == tables.open.tolist() == [1]
+    assert tables.begun.tolist() == tables.awaited.tolist() == [1]
 
 
 def test_the_papers_phase_is_0_for_ever() -> None:

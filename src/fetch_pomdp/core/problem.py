@@ -49,7 +49,7 @@ class Tables(NamedTuple):
     following: Integers  # (phases, 2, 2, 2, 3)
     alike: Integers  # (phases,)
     begun: Integers  # (phases,)
-    open: Integers  # (phases,)
+    awaited: Integers  # (phases,)
 
 
 def constant_only(problem: Problem, what: str) -> None:
@@ -164,5 +164,5 @@ class Problem:
             following=phases.following,
             alike=phases.alike,
             begun=phases.begun,
-            open=phases.open,
+            awaited=phases.awaited,
         )

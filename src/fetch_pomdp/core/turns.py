@@ -116,7 +116,7 @@ class Phases(NamedTuple):
     following: Integers  # (phases, 2 kinds of step, 2 words heard, 2 pointing seen, 3 answers), the next phase
     alike: Integers  # (phases,), number of the group of phases that a fitted value takes for one
     begun: Integers  # (phases,), 0 where nobody has spoken or pointed yet, so that there is nothing to decide
-    open: Integers  # (phases,), 1 where an answer may still come
+    awaited: Integers  # (phases,), 1 where an answer may still come
 
 
 def constant_chances(p_l: float, p_g: float) -> StepChances:

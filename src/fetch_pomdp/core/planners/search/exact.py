@@ -60,7 +60,7 @@ def last_two_answered(level: int, search: Search, work: Work, tables: Tables) ->
                 row = row_of(turn, tables)
                 top = leading(work.heard[level, row])
             silent = following_phase(level, turn, SILENT, work, tables)
-            value = answered_leaf(work.heard[level, row], turn, tables.open[silent] == 1, top, leaf, tables)
+            value = answered_leaf(work.heard[level, row], turn, tables.awaited[silent] == 1, top, leaf, tables)
             totals[action] += value
             squares[action] += value * value
 

@@ -86,7 +86,7 @@ def answered_leaf(belief: Vector, turn: Turn, still_open: bool, top: Leading, le
     rate, if_desired = tables.chances[turn.phase, turn.kind, OTHER], tables.chances[turn.phase, turn.kind, DESIRED]
     true, false, quiet, rest = rate * leaf.p_truth, rate * (1.0 - leaf.p_truth), 1.0 - rate, 1.0 - own
     yes, no, none = if_desired * leaf.p_truth, if_desired * (1.0 - leaf.p_truth), 1.0 - if_desired
-    known = tables.open[0] == 1  # under constant chances, what was answered may be answered again
+    known = tables.awaited[0] == 1  # under constant chances, what was answered may be answered again
     return (
         scaled_leaf(own * yes, o1 * false, o2 * false, rest * false, known, leaf)
         + scaled_leaf(own * no, o1 * true, o2 * true, rest * true, known, leaf)
