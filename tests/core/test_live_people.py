@@ -15,14 +15,16 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import random_state
 from fetch_pomdp.core.generative import State, step
 from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
 from fetch_pomdp.core.planners.kernels import NOBODY, Turn, answered, live_step, turn_of
 from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.turns import NO, SILENT, YES, Turns
+from fetch_pomdp.core.simulation import run_episode, simulate
+from fetch_pomdp.core.turns import NO, POINTS, SILENT, YES, Turns
 from tests.oracles.model import YES_WORDS
 from tests.oracles.talking import ANSWERS, Person, Step, all_talks, answer_chance, group, talk_after
-from tests.tables import twins
+from tests.tables import live, twins
 
 # Chances far from 0 and 1, no two alike, so that each is told from the others by counting.
 TURNS = Turns(
@@ -49,7 +51,7 @@ DESIRED = 2
 CASES = [
     (phase, asked, action)
     for phase in (0, 4, 14, 15, 17, 24, 30)
-    for asked, action in [(DESIRED, Wait()), (4, Wait()), (0, Point(DESIRED)), (None, Point(4))]
+    for asked, action in [(DESIRED, Wait()), (4, Wait()), (None, Wait()), (0, Point(DESIRED)), (None, Point(4))]
 ]
 
 
@@ -57,7 +59,8 @@ def chances_of(phase: int, asked: int | None, action: Action) -> dict[str, float
     """What a step's words, pointing, "yes" and "no" have a chance of."""
     question, talk = isinstance(action, Point), TALKS[phase]
     name, about = group(talk, 3), action.item if isinstance(action, Point) else asked
-    speaks, own = answer_chance(talk, question, about == DESIRED, PERSON), about == DESIRED
+    own = about == DESIRED
+    speaks = 0.0 if about is None else answer_chance(talk, question, own, PERSON)
     return {
         "words": PERSON.chances[f"words_{name}"][question],
         "points": PERSON.chances[f"points_{name}"][question],
@@ -118,14 +121,6 @@ def test_the_compiled_sampler_counted(phase: int, asked: int | None, action: Act
     assert_shares(counted(following), phases_after(phase, asked, action), DRAWS)
 
 
-def test_nobody_answers_what_was_not_asked() -> None:
-    """A wait before any question leaves no question: neither open nor denied."""
-    turn, state, heard = turn_of(NOBODY, 12, NOBODY), random_state(1), np.empty(6)
-    for _ in range(500):
-        after = live_step(np.full(6, 1 / 6), turn, DESIRED, heard, state, LIVE.tables)
-        assert after % 4 == 0
-
-
 # The filter: two items that sound alike, and answers_desired .6, answers_other .2 in the step of a question.
 
 ALIKE = twins(2, turns=Turns(answers_desired=(0.6, 0.7, 0.5, 0.3), answers_other=(0.2, 0.4, 0.25, 0.6)))
@@ -183,3 +178,29 @@ def test_three_filters_agree_on_long_talks() -> None:
         agent, updated, numbers = filtered(steps, [0.7, 0.3])
         assert agent == pytest.approx(updated, abs=1e-12)
         assert numbers == pytest.approx(updated, abs=1e-12)
+
+
+def test_where_p_g_is_0_live_people_do_not_point_either() -> None:
+    """The filter takes any ray for none there, so nobody may be drawn who points."""
+    assert ALIKE.model.p_g == 0.0
+    assert not ALIKE.tables.chances[..., POINTS].any()
+    rng = np.random.default_rng(0)
+    for _ in range(200):
+        state, seen, _ = step(ALIKE, State(0), Wait(), rng)
+        assert seen is not None
+        assert seen.ray is None
+        assert state.phase in (0, 40)  # unbegun still, or words of one who has not pointed
+
+
+@pytest.mark.slow
+def test_plain_and_compiled_interactions_earn_the_same() -> None:
+    problem, planner = live(Problem(Scene.load("ambiguous"))), AlwaysAsk()
+    played = [
+        run_episode(problem, planner, k % 6, np.random.default_rng((9, k)), np.random.default_rng(k))
+        for k in range(1_500)
+    ]
+    earned, ours = np.array([one.earned for one in played]), simulate(problem, planner, 6_000, seed=1)
+    error = math.hypot(earned.std() / math.sqrt(len(earned)), ours.standard_error)
+    assert abs(earned.mean() - ours.mean_return) <= 4 * error
+    assert error < 0.5
+    assert abs(np.mean([one.steps for one in played]) - ours.mean_steps) <= 0.6

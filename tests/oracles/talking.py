@@ -1,16 +1,17 @@
 """Where a talk stands, in words instead of numbers, and what a robot earns in it: from the docstring of `core.turns`.
 
-Slow and plain. Two items or more that sound alike and lie in one place, and people of whom it is certain in every step
-whether they speak and whether they point: only answers are left to chance.
+Slow and plain. Items that lie in one place, so that pointing tells nothing, and people of whom it is certain in every
+step whether they speak and whether they point: only words and answers are left to chance.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from tests.oracles.model import World, class_chance
+from tests.oracles.model import World, class_chance, word_chance
 from tests.oracles.value import Values, pick_leaf, picks
 
 Question = Literal["none", "denied", "open", "open long"]
@@ -98,19 +99,31 @@ def likelihood(answer: Answer, item: int, about: int | None, speaks: float, worl
     return speaks * class_chance(answer == "yes", item, about, world)
 
 
+def heard(belief: Sequence[float], speaks: bool, world: World) -> list[tuple[float, list[float]]]:
+    """The chance of every word, and the belief after it."""
+    if not speaks:
+        return [(1.0, list(belief))]
+    found = []
+    for word in world.words:
+        joint = [chance * word_chance(word, item, world) for item, chance in enumerate(belief)]
+        found.append((sum(joint), [share / sum(joint) for share in joint]))
+    return found
+
+
 def action_values(
     belief: Sequence[float], asked: int | None, talk: Talk, depth: int, world: World, person: Person
 ) -> Values:
     """Depth counts actions and is at least 2: the last of them is a pick, or a wait."""
 
     def ahead(about: int | None, *, question: bool) -> float:
-        name, total = group(talk, person.patience), 0.0
+        name = group(talk, person.patience)
         words, points = (person.chances[f"{kind}_{name}"][question] > 0.5 for kind in ("words", "points"))
-        for answer in ANSWERS:
-            joint = [
-                chance * likelihood(answer, item, about, answer_chance(talk, question, item == about, person), world)
-                for item, chance in enumerate(belief)
-            ]
+        total = 0.0
+        for (said, before), answer in itertools.product(heard(belief, words, world), ANSWERS):
+            joint = []
+            for item, chance in enumerate(before):
+                speaks = answer_chance(talk, question, item == about, person)
+                joint.append(said * chance * likelihood(answer, item, about, speaks, world))
             if not sum(joint):
                 continue
             following = [share / sum(joint) for share in joint]

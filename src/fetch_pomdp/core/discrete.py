@@ -77,7 +77,8 @@ class Discrete:
 
         asked: index of i_r after the action, or None.
         """
-        rate, truth = self.problem.step_chances(action).other, self.problem.model.p_truth
+        tables, truth = self.problem.tables, self.problem.model.p_truth
+        rate = tables.p_again if isinstance(action, Wait) else tables.p_answer
         yes = np.full(self.problem.n_items, 0.5 if asked is None else 1.0 - truth)
         if asked is not None:
             yes[asked] = truth

@@ -41,11 +41,16 @@ def asked_after(action: Action, asked: int | None) -> int | None:
 
 
 def step(problem: Problem, state: State, action: Action, rng: Generator) -> tuple[State, Observation | None, float]:
-    """Return the next state, the observation and the reward of an action; after a pick the observation is None."""
+    """Return the next state, the observation and the reward of an action; after a pick the observation is None.
+
+    Choice: live people answer only what was asked; the paper's may say "yes" or "no" to nothing (Table I, i_r null).
+    """
     earned = reward(state, action, problem)
     if isinstance(action, Pick):
         return state, None, earned
     asked, chances = asked_after(action, state.asked), problem.step_chances(action, state.phase)
+    if asked is None and problem.model.turns:
+        chances = chances._replace(desired=0.0, other=0.0)
     seen = observations.sample(state.desired, asked, problem, chances, rng)
     phase = observations.phase_after(seen, action, problem, state.phase)
     return State(state.desired, asked, phase), seen, earned

@@ -15,7 +15,7 @@ from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.rays import LARGEST_EXACT, miss_chances, unit_directions
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.turns import StepChances, constant_phases, phases_of
+from fetch_pomdp.core.turns import POINTS, StepChances, constant_phases, phases_of
 from fetch_pomdp.errors import ModelError
 
 
@@ -132,6 +132,8 @@ class Problem:
         p_answer, p_again = model.p_l, model.p_l * model.p_answer_again
         if model.turns:
             phases = phases_of(model.turns)
+            if model.p_g == 0.0:  # nobody points, live people neither: a ray is then null to the filter
+                phases.chances[..., POINTS] = 0.0
             p_answer, _, p_again, _ = (sum(pair) / 2 for pair in zip(
                 model.turns.answers_desired, model.turns.answers_other, strict=True))  # fmt: skip
         else:
