@@ -125,7 +125,7 @@ class Agent:
         utterance = unigram.split(observation.words, self.problem)
         parts = observations.log_likelihoods(observation, self.asked, self.problem, self.chances)
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
-        self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase)
+        self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase, asked=self.asked)
         self._acted = Wait()
         self._evidence = self._evidence.plus(parts, answered=bool(utterance.response))
         self._steps += 1
@@ -141,6 +141,8 @@ class Agent:
         if passes is not None and isinstance(planner, BudgetPlanner):
             planner = planner.with_passes(passes)
         decision = planner.decide(self.problem, self._belief, self.asked, rng=rng, phase=self.phase)
+        if not self.problem.tables.begun[self.phase]:  # there is nothing to decide before the first word or gesture
+            decision = dataclasses.replace(decision, action=Wait())
         why = explain(decision, self._belief, self._evidence, self.scene)
         return dataclasses.replace(decision, explanation=why)
 

@@ -52,5 +52,5 @@ def step(problem: Problem, state: State, action: Action, rng: Generator) -> tupl
     if asked is None and problem.model.turns:
         chances = chances._replace(desired=0.0, other=0.0)
     seen = observations.sample(state.desired, asked, problem, chances, rng)
-    phase = observations.phase_after(seen, action, problem, state.phase)
+    phase = observations.phase_after(seen, action, problem, state.phase, asked=asked)
     return State(state.desired, asked, phase), seen, earned

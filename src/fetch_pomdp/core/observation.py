@@ -81,13 +81,16 @@ def sample(desired: int, asked: int | None, problem: Problem, chances: StepChanc
     return Observation(base + response, gesture.sample(desired, problem, chances.points, rng))
 
 
-def phase_after(observation: Observation, action: Action, problem: Problem, phase: int = 0) -> int:
-    """Return the phase (`turns`) that a step leads to which began with an action; of several responses the last
-    counts.
+def phase_after(
+    observation: Observation, action: Action, problem: Problem, phase: int = 0, *, asked: int | None
+) -> int:
+    """Return the phase (`turns`) that a step leads to which began with an action.
+
+    asked: i_r in the step, for words that answer nothing change nothing. Of several responses the last counts.
     """
     utterance = unigram.split(observation.words, problem)
     answer = SILENT
-    if utterance.response:
+    if utterance.response and asked is not None:
         answer = YES if utterance.response[-1] in POSITIVE else NO
     seen = observation.ray is not None and gesture.is_pointing(observation.ray, problem)
     following = problem.tables.following[phase, int(not isinstance(action, Wait)), int(bool(utterance.base)), int(seen)]

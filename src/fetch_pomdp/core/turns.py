@@ -94,7 +94,7 @@ def _whole(value: object, field: str) -> None:
 
 
 def _chances(value: object, count: int, field: str) -> tuple[float, ...]:
-    expected = f"a list of {count} probabilities above 0 and below 1"
+    expected = f"a list of {count} {'probability' if count == 1 else 'probabilities'} above 0 and below 1"
     if isinstance(value, str) or not isinstance(value, list | tuple) or len(value) != count:
         raise ModelError(f"found {checks.shown(value)}, expected {expected}", field=field)
     return tuple(checks.within(part, LEAST, 1.0 - LEAST, field, expected, ModelError) for part in value)

@@ -165,7 +165,7 @@ def acted(layer: Layer, scenario: Scenario, step: int, fixed: Relaxation) -> Chi
     size = len(layer.beliefs) * (count + 1)
     whole = np.empty((3, size), dtype=np.int64)
     children = Children(whole[0], whole[1], whole[2], np.empty(size, dtype=np.uint64), np.empty(size))
-    memory, state, made = np.empty((4, count + 1)), np.empty(1, dtype=np.uint64), 0
+    memory, state, made = np.empty((5, count + 1)), np.empty(1, dtype=np.uint64), 0
     places = np.empty(count, dtype=np.int64)
     for node in range(len(layer.beliefs)):
         belief, before, key = layer.beliefs[node], layer.asked[node], layer.keys[node]
@@ -173,7 +173,11 @@ def acted(layer: Layer, scenario: Scenario, step: int, fixed: Relaxation) -> Chi
         asks = places[: worth_asking(belief, before, fixed.alike, places)]
         expected = memory[0, : len(asks) + 1]
         one_pass(
-            Root(belief, before, 0), asks, fixed.ahead, Pass(expected, memory[1], memory[2], memory[3, :count]), state
+            Root(belief, before, 0),
+            asks,
+            fixed.ahead,
+            Pass(expected, memory[1], memory[2], memory[3], memory[4, :count]),
+            state,
         )
         sofar = layer.sums[node] - control(belief, before, fixed.ahead.table, tables)
         for action in range(len(expected)):

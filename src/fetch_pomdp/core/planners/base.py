@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.random import Generator
 
-from fetch_pomdp.checks import shown
+from fetch_pomdp import checks
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Integers, Vector
@@ -111,9 +111,7 @@ def best_action(wait: float, point: Vector, pick: Vector) -> Action:
 
 def whole_number(value: object, least: int, most: int, field: str) -> int:
     """Return a planner's whole-number parameter. Raises PlannerError for one that is out of range."""
-    if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
-        raise PlannerError(f"found {shown(value)}, expected a whole number from {least} to {most}", field=field)
-    return value
+    return checks.whole(value, least, most, field, PlannerError)
 
 
 def unvalued(problem: Problem) -> Vector:

@@ -58,7 +58,7 @@ def tally(interactions: Iterable[Interaction], start: Turns) -> Tally:
         phase = 0
         for step in steps_of(one.events):
             _count(step, phase, one.desired, problem, start, found)
-            phase = phase_after(step.observation, step.action, problem, phase)
+            phase = phase_after(step.observation, step.action, problem, phase, asked=step.asked)
     return found
 
 

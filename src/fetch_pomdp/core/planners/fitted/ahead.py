@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, lean
-from fetch_pomdp.core.planners.fitted.outlook import DistinctWords, look, outlook_size
+from fetch_pomdp.core.planners.fitted.outlook import DistinctWords, look, outlook_size, rays_a_draw
 from fetch_pomdp.core.planners.fitted.rehearsal import sharpened
 from fetch_pomdp.core.planners.fitted.table import ValueTable, answered_value, classes_of, with_other
-from fetch_pomdp.core.planners.kernels import NOBODY, Came, leading, pick_value, smoothed_mass, turn_of
+from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, Came, leading, pick_value, smoothed_mass, turn_of
 from fetch_pomdp.core.problem import Tables
-from fetch_pomdp.core.turns import POINTS
+from fetch_pomdp.core.turns import POINTS, WORDS
 
 MOST_ASKED = 6  # leading items whose questions are valued
 _NEXT_PASS = 0x632BE59BD9B4E019  # far from the steps of the generator, so that passes do not overlap
@@ -52,6 +52,7 @@ class Pass(NamedTuple):
     values: Vector  # (k + 1,), what each action leads to
     errors: Vector  # (k + 1,), their standard errors over the gestures
     sampled: Vector  # (k + 1,)
+    drawn: Vector  # (k + 1,)
     heard: Vector  # (n_items,)
 
 
@@ -82,7 +83,7 @@ def add_passes(root: Root, sums: Sums, ahead: Lookahead, seed: int, begin: int, 
     asks, totals, squares = sums
     state, size = np.empty(1, dtype=np.uint64), len(totals)
     values, errors = np.empty(size), np.empty(size)
-    found = Pass(values, errors, np.empty(size), np.empty(len(root.belief)))
+    found = Pass(values, errors, np.empty(size), np.empty(size), np.empty(len(root.belief)))
     for number in range(begin, end):
         state[0] = np.uint64(seed) + np.uint64(number) * np.uint64(_NEXT_PASS)
         one_pass(root, asks, ahead, found, state)
@@ -96,11 +97,13 @@ def one_pass(root: Root, asks: Integers, ahead: Lookahead, found: Pass, state: R
     """Fill in the value that a question about each of `asks`, and then a wait, leads to, and its standard error."""
     belief, asked, phase = root
     table, distinct, tables = ahead
-    values, errors, sampled, heard = found
+    values, errors, sampled, drawn, heard = found
     smoothed, size = smoothed_mass(belief, tables), outlook_size(distinct, tables)
-    rays = distinct.rays if tables.p_g > 0.0 else 0
+    first = size - (distinct.rays if tables.p_g > 0.0 else 0)
+    each = rays_a_draw(phase, tables)
+    draws = (size - first) // each
     for index in range(len(values)):
-        values[index], errors[index], sampled[index] = 0.0, 0.0, 0.0
+        values[index], errors[index], sampled[index], drawn[index] = 0.0, 0.0, 0.0, 0.0
     for number in range(size):
         seen = look(number, belief, smoothed, phase, heard, state, distinct, tables)
         top = leading(heard)
@@ -112,13 +115,17 @@ def one_pass(root: Root, asks: Integers, ahead: Lookahead, found: Pass, state: R
             own = heard[turn.about] if turn.about != NOBODY else 0.0
             value = answered_value(table, pairs, top, own, turn, Came(seen.words, seen.seen), tables)
             values[index] += (seen.wait if waits else seen.ask) * value
-            if number >= size - rays:
-                sampled[index] += value / rays
-                errors[index] += value * value / rays
+            if number >= first:
+                words = tables.chances[phase, turn.kind, WORDS]
+                drawn[index] += value if each == 1 else value * (words if seen.words else 1.0 - words)
+                if (number - first) % each == each - 1:
+                    sampled[index] += drawn[index] / draws
+                    errors[index] += drawn[index] * drawn[index] / draws
+                    drawn[index] = 0.0
     for index in range(len(values)):
-        spread = max(errors[index] - sampled[index] * sampled[index], 0.0) if rays > 1 else 0.0
-        points = tables.chances[phase, 0 if index == len(asks) else 1, POINTS]
-        errors[index] = points * math.sqrt(spread / max(rays - 1, 1))
+        spread = max(errors[index] - sampled[index] * sampled[index], 0.0) if draws > 1 else 0.0
+        points = tables.chances[phase, WAITED if index == len(asks) else ASKED, POINTS]
+        errors[index] = points * math.sqrt(spread / max(draws - 1, 1))
 
 
 @compiled

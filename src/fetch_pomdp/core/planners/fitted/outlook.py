@@ -42,6 +42,12 @@ def rays_of(problem: Problem, rays: int) -> int:
 
 
 @inlined
+def rays_a_draw(phase: int, tables: Tables) -> int:
+    """Return how many rays are drawn for one item: two where each kind of step weighs words and none otherwise."""
+    return 1 if tables.chances[phase, WAITED, WORDS] == tables.chances[phase, ASKED, WORDS] else 2
+
+
+@inlined
 def outlook_size(distinct: DistinctWords, tables: Tables) -> int:
     """Return how many beliefs an outlook has: silence, words, rays."""
     return 1 + min(len(distinct.words), MOST_WORDS) + (distinct.rays if tables.p_g > 0.0 else 0)
@@ -82,7 +88,7 @@ def look(
     wait, ask = tables.chances[phase, WAITED], tables.chances[phase, ASKED]
     if index > count:
         draw = index - count - 1
-        if wait[WORDS] == ask[WORDS]:
+        if rays_a_draw(phase, tables) == 1:
             desired = draw_item(belief, (draw + uniform(state)) / distinct.rays)
             words = say(desired, uniform(state) < wait[WORDS], belief, smoothed, heard, state, tables)
             of, wait_share, ask_share = distinct.rays, 1.0, 1.0
