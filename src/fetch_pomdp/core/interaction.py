@@ -5,6 +5,8 @@ Time is that of the sensors' streams, in seconds. A step begins with an action a
 - A wait listens for `Timing.wait`.
 - A question takes `Timing.question`, of which the last `Timing.listen` is listening.
 - The words that end inside a step are its utterance; the median of its pointing frames is its gesture.
+- Nothing is decided in the middle of an utterance: where the ears can tell, as with recordings, the step goes on to its
+  end.
 
 Choice: answers that end before the question has been asked cannot answer it; they belong to the step before, and are
 read with the i_r of that step. Other words of that time mean the same in either step, and are read with the later one.
@@ -38,7 +40,7 @@ from fetch_pomdp.core.language.answers import After, AnswerReader
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
-from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
+from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, UtteranceRecognizer, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import nearest_angles
 from fetch_pomdp.core.simulation import MOST_STEPS
@@ -118,7 +120,11 @@ class Senses:
         return Observed(Observation(reader.read(texts(answers), after).words), answers, time, early=True)
 
     def perceive(self, due: float, reader: AnswerReader, after: After) -> Observed:
-        """Listen until `due` (s); return what was said and seen since the last call, without early answers."""
+        """Listen until `due` (s), or on to the end of an utterance that goes on then; return what was said and seen
+        since the last call, without early answers.
+        """
+        if isinstance(self._ears, UtteranceRecognizer):
+            due = self._ears.utterance_end(due)
         fresh = tuple(self._ears.hear(due)) if self._ears else ()
         rest = _continuing(fresh, self._answered)
         read = texts(rest) + reader.read(texts(self._kept + fresh[len(rest) :]), after).words
@@ -142,6 +148,11 @@ def _continuing(words: Sequence[Word], end: float | None) -> tuple[Word, ...]:
 def texts(words: Sequence[Word]) -> tuple[str, ...]:
     """Return the words of an utterance as they were heard."""
     return tuple(text for word in words for text in tokenize(word.text))
+
+
+def ended(observed: Observed, due: float) -> float:
+    """Return when (s) a step ended that was due at a time, or went on to the end of an utterance."""
+    return due if observed.time is None else max(due, observed.time)
 
 
 def following(event: Event, agent: Agent) -> After:
@@ -169,7 +180,7 @@ def interact(
     senses, now, silence = Senses(agent.problem, ears, eyes, pace), pace.time(0.0), 0.0
     if timing.before:
         observed = senses.perceive(now + timing.before, answers, agent.after)
-        now = pace.time(now + timing.before)
+        now = pace.time(ended(observed, now + timing.before))
         agent.take(observed)
         yield observed
     for _ in range(most_steps):
@@ -191,7 +202,7 @@ def interact(
             robot.say(OBJECTED if acted.objected else FAILED)
             now = pace.time(now)
         observed = senses.perceive(now + listening, answers, following(acted, agent))
-        now = pace.time(now + listening)
+        now = pace.time(ended(observed, now + listening))
         agent.take(observed)
         silence = silence + timing.wait if isinstance(acted.action, Wait) and not observed.observation.words else 0.0
         if silence >= timing.silence:

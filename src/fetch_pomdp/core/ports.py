@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from fetch_pomdp.checks import Point3
 from fetch_pomdp.core.scene import Item
@@ -51,6 +51,15 @@ class Recognizer(Protocol):
         After the end of the stream there is silence: it returns at once, with what was left and then nothing.
         Raises AudioError for a stream that breaks.
         """
+        ...
+
+
+@runtime_checkable
+class UtteranceRecognizer(Recognizer, Protocol):
+    """Ears of a recording, which know how long somebody goes on speaking."""
+
+    def utterance_end(self, time: float) -> float:
+        """Return when (s) the utterance ends that goes on at a time, or the time if nobody speaks then."""
         ...
 
 

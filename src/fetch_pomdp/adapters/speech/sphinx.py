@@ -68,16 +68,27 @@ class SphinxRecognizer:
         self._utterances = Utterances(sound)
         self._transcriber = SphinxTranscriber(vocabulary)
         self._heard: deque[Word] = deque()
+        self._spoken = (0.0, 0.0)  # s, the last utterance with words in it
 
     def hear(self, until: float) -> list[Word]:
         """Listen until the stream's time `until` (s); see Recognizer. Raises AudioError for a stream that breaks."""
-        while not self._utterances.ended and self._utterances.settled < until:
-            if utterance := self._utterances.step():
-                self._heard.extend(self._transcriber.next_words(utterance))
+        self._listen(until)
         words = []
         while self._heard and self._heard[0].end <= until:
             words.append(self._heard.popleft())
         return words
+
+    def utterance_end(self, time: float) -> float:
+        """Return when (s) the utterance ends that goes on at a time; see UtteranceRecognizer."""
+        self._listen(time)
+        begin, end = self._spoken
+        return end if begin <= time < end else time
+
+    def _listen(self, until: float) -> None:
+        while not self._utterances.ended and self._utterances.settled < until:
+            if (utterance := self._utterances.step()) and (words := self._transcriber.next_words(utterance)):
+                self._heard.extend(words)
+                self._spoken = words[0].start, words[-1].end
 
 
 def _word(segment: Segment, start: float) -> Word:
