@@ -40,7 +40,7 @@ def all_actions(n_items: int) -> tuple[Action, ...]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Discrete:
-    """A problem whose observations are classes. Raises ModelError for a number of rings that is none, SceneError for
+    """A problem whose observations are classes. Raises ModelError for a number of rings out of range, SceneError for
     over MOST_ITEMS items.
 
     rings: each item's cone within the gesture threshold is split into that many rings of equal width. Columns of

@@ -244,7 +244,7 @@ def pointing_arms(frames: Sequence[Frame], problem: Problem) -> tuple[Vector, Ve
     heads, wrists = np.array(arms, dtype=np.float64).reshape(-1, 2, 3).swapaxes(0, 1).copy()
     if not _are_rays(heads, wrists):
         for head, wrist in arms:
-            Ray(head, wrist)  # raises for the first that is none
+            Ray(head, wrist)  # raises for the first that has no length
     nearest = nearest_angles(heads, wrists, problem.positions).tolist()
     best, first = [], 0
     for frame in frames:

@@ -72,7 +72,7 @@ class Phrase:
 
 
 def phrase(key: str, **values: Value) -> Phrase:
-    """Return the phrase of a template's key. Raises KeyError for a key that is none."""
+    """Return the phrase of a template's key. Raises KeyError for an unknown key."""
     if key not in TEMPLATES:
         raise KeyError(key)
     return Phrase(key, values)

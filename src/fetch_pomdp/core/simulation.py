@@ -136,7 +136,7 @@ def _advance(active: Integers, actions: Integers, interactions: Interactions, ta
 def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Summary:
     """Play `episodes` interactions, each item being the desired one equally often; same seed, same result.
 
-    Raises PlannerError for a number of episodes, or a seed, that is none.
+    Raises PlannerError for a number of episodes, or a seed, out of range.
 
     The person of an episode draws from a stream of the seed and the episode's number alone, so that planners are
     compared on the same people. Episodes are played side by side, on all cores where the planner decides in batches;

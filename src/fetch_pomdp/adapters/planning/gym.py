@@ -50,7 +50,7 @@ class FetchEnv(gymnasium.Env):  # type: ignore[misc,name-defined]
     "response": 0 none, 1 yes, 2 no, "pointing": 0 or 1, "ray": (3,) unit vector of a pointing arm, or zeros, "asked"}.
     Before the first step and after a pick nothing is perceived.
 
-    Raises SceneError or ModelError for a scene that is none, ModelError for an unknown kind of observation and for live
+    Raises SceneError or ModelError for an invalid scene, ModelError for an unknown kind of observation and for live
     people (`turns`).
     """
 
@@ -85,7 +85,7 @@ class FetchEnv(gymnasium.Env):  # type: ignore[misc,name-defined]
         return self._seen(self._state, Observation()), self._info(self._state)
 
     def step(self, action: int) -> tuple[Seen, float, bool, bool, Seen]:
-        """Take an action. Raises ActionError for a number that is none, or when no episode is going on."""
+        """Take an action. Raises ActionError for a number out of range, or when no episode is going on."""
         if self._state is None:
             raise ActionError("found an action while no episode is going on, expected a reset before", field="action")
         if not self.action_space.contains(action):

@@ -94,7 +94,7 @@ class Cutter:
         given = self._give(len(self._kept)) if self.speaking else None
         self.speaking = False
         self._kept.clear()
-        self._powers.clear()  # the loudness of what was said is none of what follows
+        self._powers.clear()  # what was said tells nothing of how loud the next utterance is
         return given
 
     @property

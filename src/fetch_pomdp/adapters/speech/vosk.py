@@ -14,7 +14,7 @@ from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
 from fetch_pomdp.extras import load
 
-UNKNOWN = "[unk]"  # how Vosk spells what is none of the words
+UNKNOWN = "[unk]"  # how Vosk writes a sound that is not one of the words
 CHUNK = RATE // 5  # samples; Vosk may find an end after each, and then gives what came before it
 
 

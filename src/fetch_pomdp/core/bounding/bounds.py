@@ -88,7 +88,7 @@ def upper_bound(problem: Problem, scenarios: int = 1_000, seed: int = 0) -> Boun
     """Return an upper bound on the return of every policy on simulated people; same seed, same bound.
 
     The argument is this module's. Tables of more than MOST_ITEMS items, and those where the closed form is the lesser,
-    get kind "oracle". Raises PlannerError for a number of scenarios, or a seed, that is none, and
+    get kind "oracle". Raises PlannerError for a number of scenarios, or a seed, out of range, and
     ModelError for live people (`turns`), for whom it does not hold.
     """
     constant_only(problem, "the upper bound")

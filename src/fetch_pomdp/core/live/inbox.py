@@ -84,7 +84,7 @@ class Inbox:
         self._tell(News.WORDS)
 
     def push_frame(self, frame: Frame) -> None:
-        """Leave a skeleton. Raises ObservationError for an arm without length or a position that is none."""
+        """Leave a skeleton. Raises ObservationError for an arm without length or an invalid position."""
         for wrist in frame.wrists:
             Ray(frame.head, wrist)
         with self._lock:

@@ -115,7 +115,7 @@ def whole_number(value: object, least: int, most: int, field: str) -> int:
 
 
 def unvalued(problem: Problem) -> Vector:
-    """Return a value for each item that says there is none."""
+    """Return NaN for each item: no value."""
     return np.full(problem.n_items, np.nan)
 
 

@@ -145,7 +145,7 @@ class People:
 
     @classmethod
     def from_mapping(cls, data: Mapping[str, Any]) -> Self:
-        """Build a population from the fields of such a file. Raises StudyError for a name that is none."""
+        """Build a population from the fields of such a file. Raises StudyError for an unknown name."""
         checks.known(data, [field.name for field in dataclasses.fields(cls)], "parameter", StudyError)
         return cls(**data)
 

@@ -81,7 +81,7 @@ class Standing:
 class Contest:
     """Games that planners are compared by: each has the same groups, wishes and operators for every planner.
 
-    Raises StudyError for a number of games, or a seed, that is none.
+    Raises StudyError for a number of games, or a seed, out of range.
 
     Choice: the groups of all games are drawn from a few, so that a planner that solves each scene first need not solve
     thousands. The standard errors are those of games with these groups.

@@ -66,7 +66,7 @@ class Operators(Protocol):
 class Guests:
     """Operators of the model who may not know an answer, and whose arm is off by an angle that stays for a group.
 
-    Raises StudyError for a chance that is none, or an angle out of range.
+    Raises StudyError for a chance or an angle out of range.
     """
 
     unknown: float = 0.1  # chance of "I don't know" for an answer
