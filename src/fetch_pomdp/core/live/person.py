@@ -7,9 +7,9 @@ Choice: alpha, sigma and p_truth are those of our simulated people, as `fetch-po
 is not the item's is rarer than the paper has it, arms lie nearer than 0.15 rad, and answers are misheard more often
 than once in a hundred.
 
-Choice: a question costs the time it takes, in waits, and a wrong item three times what a right one earns: it is carried
-over, refused, carried back and asked for again. At the paper's 6 points a question is dearer than a guess between two
-items, and among our simulated people the paper's 12.5 for a wrong item leaves one hand-over in fourteen wrong.
+Choice: a question costs the time it takes, in waits; at the paper's 6 points it is dearer than a guess between two items
+that are nearly sure. A wrong item costs what it does in the paper: dearer, and robots that never ask would never hand over
+one of two alike items, for their search sees two waits and no end of them.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.turns import Turns
 
 LIVE_MODEL = Model(alpha=0.04, p_l=0.3, p_g=0.1, sigma=0.06, p_truth=0.95, turns=Turns())
-LIVE_REWARDS = Rewards(point=-2.8, pick_wrong=-30.0)
+LIVE_REWARDS = Rewards(point=-2.8)
 
 
 def live_scene(name_or_path: str | Path) -> Scene:
