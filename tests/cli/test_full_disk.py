@@ -17,11 +17,11 @@ CONFIG = 'people = 2\ntrials = 1\n[paradigms]\nalways = "always"\nquick = {plann
 
 
 def test_a_log_keeps_the_whole_lines_or_is_not_there(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "stdin", io.StringIO("a thing\n" * 20))
+    monkeypatch.setattr(sys, "stdin", io.StringIO("a thing\n" * 60))
     run("fetch", "ambiguous", "--planner", "always")  # Numba's cache has room
     path = tmp_path / "log.jsonl"
-    for room, left in ((10, []), (300, [path])):
-        monkeypatch.setattr(sys, "stdin", io.StringIO("a thing\n" * 20))
+    for room, left in ((10, []), (3000, [path])):
+        monkeypatch.setattr(sys, "stdin", io.StringIO("a thing\n" * 60))
         with room_for(room):
             code, _, err = run("fetch", "ambiguous", "--planner", "always", "--log", path)
         assert (code, list(tmp_path.iterdir())) == (2, left)

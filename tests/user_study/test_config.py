@@ -34,7 +34,7 @@ def test_the_template_is_the_paper_s_design_with_live_people(paper: UserStudy) -
 
 
 @pytest.mark.parametrize(
-    "paradigms", ["", '[paradigms]\nfetch = {planner = "sparse", model = {p_l = 0.95, p_g = 0.1}}']
+    "paradigms", ["", '[paradigms]\nfetch = {planner = "sparse", model = {turns = false, p_l = 0.95, p_g = 0.1}}']
 )
 def test_the_robot_that_fetches_asks_who_has_said_too_little(tmp_path: Path, paradigms: str) -> None:
     """Not so the paper's search at a live table's p_l: it would pick at random, or wait for ever."""

@@ -19,6 +19,7 @@ from fetch_pomdp.adapters.web.conversations import ConversationOpener
 from fetch_pomdp.adapters.web.ears import speech_if_installed
 from fetch_pomdp.adapters.web.page_connection import ConnectionLimits
 from fetch_pomdp.adapters.web.server import create_app
+from fetch_pomdp.core.live.person import LIVE_MODEL
 
 HOME = "http://127.0.0.1:8000"
 ORIGIN = {"origin": HOME}
@@ -120,7 +121,7 @@ def test_only_the_worker_of_the_pose_model_may_compile_webassembly(client: TestC
 
 def test_a_calibrated_camera_sets_the_spread_of_pointing(house: House) -> None:
     assert house.page(sigma=0.21).next("welcome")["scene"]["sigma"] == 0.21
-    assert house.page().next("welcome")["scene"]["sigma"] == 0.15
+    assert house.page().next("welcome")["scene"]["sigma"] == LIVE_MODEL.sigma
 
 
 def test_a_page_is_told_the_table_to_begin_with(client: TestClient) -> None:

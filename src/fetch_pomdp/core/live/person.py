@@ -7,9 +7,9 @@ Choice: alpha, sigma and p_truth are those of our simulated people, as `fetch-po
 is not the item's is rarer than the paper has it, arms lie nearer than 0.15 rad, and answers are misheard more often
 than once in a hundred.
 
-Choice: a question costs the time it takes, in waits; at the paper's 6 points it is dearer than a guess between two items
-that are nearly sure. A wrong item costs what it does in the paper: dearer, and robots that never ask would never hand over
-one of two alike items, for their search sees two waits and no end of them.
+Choice: a question costs the time it takes, in waits; at the paper's 6 points it is dearer than a guess between two
+items that are nearly sure. A wrong item costs what it does in the paper: dearer, and robots that never ask would never
+hand over one of two alike items, for their search sees two waits and no end of them.
 """
 
 from __future__ import annotations

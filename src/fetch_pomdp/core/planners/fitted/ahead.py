@@ -15,6 +15,7 @@ from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, Came, leadi
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.turns import POINTS, WORDS
 
+ALMOST = 0.1  # points
 MOST_ASKED = 6  # leading items whose questions are valued
 _NEXT_PASS = 0x632BE59BD9B4E019  # far from the steps of the generator, so that passes do not overlap
 
@@ -145,9 +146,14 @@ def candidates(belief: Vector) -> Integers:
 
 @compiled
 def chosen(root: Root, sums: Sums, passes: int, tables: Tables) -> Ahead:
-    """Return what the sums of passes amount to; equal values go to the pick, then the wait, then the question."""
+    """Return what the sums of passes amount to; equal values go to the pick, then the wait, then the question.
+
+    Choice: before live people a question about a less likely item has to be worth ALMOST more than one about a likelier
+    item: a robot that is shown one item and asks about its neighbour seems not to have looked.
+    """
     belief, count = root.belief, len(root.belief)
     asks, totals, squares = sums
+    live = len(tables.begun) > 1
     point, point_errors = np.full(count, np.nan), np.full(count, np.nan)
     wait = tables.wait + totals[-1] / passes
     best, action = pick_value(belief[asks[0]], tables), count + asks[0]
@@ -156,7 +162,8 @@ def chosen(root: Root, sums: Sums, passes: int, tables: Tables) -> Ahead:
     for index in range(len(asks)):
         value = tables.point + totals[index] / passes
         point[asks[index]], point_errors[asks[index]] = value, math.sqrt(squares[index]) / passes
-        if value > best:
+        margin = ALMOST if live and 0 <= action < count else 0.0
+        if value > best + margin:
             best, action = value, asks[index]
     if tables.begun[root.phase] == 0:
         action = NOBODY
