@@ -17,6 +17,7 @@ from fetch_pomdp.adapters.speech.audio import open_wav
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
 from fetch_pomdp.cli.show import show_event
+from fetch_pomdp.core.live.person import live_scene
 
 ROOT = Path(__file__).parent.parent
 # A page without addresses in it: the fonts are those of whoever looks at it.
@@ -43,7 +44,7 @@ PAGE = """<svg class="rich-terminal" viewBox="0 0 {width} {height}" xmlns="http:
 
 def main() -> None:
     """Play the recording of the demo and draw what a terminal shows."""
-    agent = Agent("ambiguous")
+    agent = Agent(live_scene("ambiguous"))
     ears = SphinxRecognizer(open_wav(ROOT / "examples" / "marker.wav"), agent.scene.words)
     eyes = RecordedSkeleton.open(ROOT / "examples" / "marker.jsonl")
     console = Console(record=True, width=92, file=io.StringIO(), force_terminal=True, highlight=False)
