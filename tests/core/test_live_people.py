@@ -202,5 +202,5 @@ def test_plain_and_compiled_interactions_earn_the_same() -> None:
     earned, ours = np.array([one.earned for one in played]), simulate(problem, planner, 6_000, seed=1)
     error = math.hypot(earned.std() / math.sqrt(len(earned)), ours.standard_error)
     assert abs(earned.mean() - ours.mean_return) <= 4 * error
-    assert error < 0.5
+    assert error < 0.05 * abs(ours.mean_return)  # a robot that always asks pays for up to 30 questions
     assert abs(np.mean([one.steps for one in played]) - ours.mean_steps) <= 0.6

@@ -102,9 +102,12 @@ def to_plain(study: Study) -> dict[str, Any]:
     """Return all that a study's trials depend on as plain data, in the form that JSON gives back."""
     fields = dataclasses.asdict(study)
     for name, scene in study.layouts.items():
-        del fields["layouts"][name]["answers"]
+        layout = fields["layouts"][name]
+        del layout["answers"]
         if answers := scene.answers.to_mapping():  # without any, a study is what it was before there were any
-            fields["layouts"][name]["answers"] = answers
+            layout["answers"] = answers
+        if scene.model.turns is None:  # likewise
+            del layout["model"]["turns"]
     plain: dict[str, Any] = json.loads(json.dumps(fields))
     return plain
 

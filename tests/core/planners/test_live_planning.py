@@ -159,4 +159,4 @@ def test_many_decisions_are_those_one_by_one() -> None:
         decision = planner.decide(problem, Belief(belief), last, rng=robot, phase=int(phase))
         one_by_one.append(code_of(decision.action, problem))
     assert many.tolist() == one_by_one
-    assert len(set(one_by_one)) > 10
+    assert len(set(one_by_one)) > 8  # of a wait, 6 questions and 6 picks

@@ -76,7 +76,8 @@ def test_every_step_is_counted_once() -> None:
 def test_the_chances_made_of_a_tally_are_beta_means() -> None:
     """By hand: 3 of 8 steps and a chance before of .2 that counts for two steps make 3.4 in 10."""
     assert TRUST == 2.0
-    found = Tally({("words_unbegun", 0): 3}, {("words_unbegun", 0): 8}).turns(START)
+    start = dataclasses.replace(START, words_unbegun=(0.2, 0.6))
+    found = Tally({("words_unbegun", 0): 3}, {("words_unbegun", 0): 8}).turns(start)
     assert found.words_unbegun == pytest.approx((0.34, 0.6))
     assert dataclasses.replace(found, words_unbegun=START.words_unbegun) == START
     always = Tally({("words_due", 1): 10**9}, {("words_due", 1): 10**9}).turns(START)
