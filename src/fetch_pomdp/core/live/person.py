@@ -3,9 +3,10 @@
 The defaults of `Model` are the paper's, of people who speak in 19 of 20 seconds. Live people say a thing once and wait
 (`turns`), so that the robot would wait for their next word for ever; Section V saw that too.
 
-Choice: alpha, sigma and p_truth are those of our simulated people, as `fetch-pomdp calibrate` finds them: a word that
-is not the item's is rarer than the paper has it, arms lie nearer than 0.15 rad, and answers are misheard more often
-than once in a hundred.
+Choice: alpha and p_truth are those of our simulated people, as `fetch-pomdp calibrate` finds them: a word that is not the
+item's is rarer than the paper has it, and answers are misheard more often than once in a hundred. sigma stays the
+paper's: arms are steadier, but who points for ten seconds says no more than who points for two, and each step's ray
+counts anew.
 
 Choice: a question costs the time it takes, in waits; at the paper's 6 points it is dearer than a guess between two
 items that are nearly sure. A wrong item costs what it does in the paper: dearer, and robots that never ask would never
@@ -22,7 +23,7 @@ from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.turns import Turns
 
-LIVE_MODEL = Model(alpha=0.04, p_l=0.3, p_g=0.1, sigma=0.06, p_truth=0.95, turns=Turns())
+LIVE_MODEL = Model(alpha=0.04, p_l=0.3, p_g=0.1, p_truth=0.95, turns=Turns())
 LIVE_REWARDS = Rewards(point=-2.8)
 
 
