@@ -49,8 +49,11 @@ Ages = tuple[float, float, float, float]
 class Turns:
     """Chances in a step of a live person. Raises ModelError for one out of its range.
 
-    The defaults are those of our simulated people (`study.people`) on the clock of a live interaction, fitted by
-    `fetch-pomdp calibrate --turns`.
+    The defaults are those of our simulated people (`study.people`) on the clock of a live interaction, counted as
+    `fetch-pomdp calibrate --turns` counts, but for one.
+
+    Choice: an answer that has not come in two steps still comes with a chance of 0.4 a step, where our simulated people
+    have long answered: who thinks for five seconds is not to be handed a guess.
     """
 
     words_unbegun: Chances = (0.033, 0.6)
@@ -67,8 +70,8 @@ class Turns:
     points_heard: Chances = (0.172, 0.344)
     points_silent: Chances = (0.093, 0.377)
     points_denied: Chances = (0.462, 0.626)
-    answers_desired: Ages = (0.308, 0.129, 0.635, 0.079)  # of an answer if the item asked about is the desired one
-    answers_other: Ages = (0.162, 0.367, 0.459, 0.176)  # and if it is not
+    answers_desired: Ages = (0.308, 0.129, 0.635, 0.4)  # of an answer if the item asked about is the desired one
+    answers_other: Ages = (0.162, 0.367, 0.459, 0.4)  # and if it is not
     answers_settled: tuple[float] = (0.064,)  # of another answer where no question is open
     patience: int = 6  # quiet steps after which people say it again
     question: int = 3  # quiet steps that the step of a question counts for

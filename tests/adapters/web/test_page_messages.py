@@ -20,7 +20,7 @@ from fetch_pomdp.adapters.web.page_messages import (
     header_of,
     read_page_message,
 )
-from fetch_pomdp.core.live.person import LIVE_MODEL, LIVE_REWARDS
+from fetch_pomdp.core.live.person import LIVE_MODEL
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.files.header import Header
@@ -65,7 +65,6 @@ def test_a_hello_is_read_without_its_table() -> None:
 
 def test_a_page_s_tables_expect_live_people_unless_their_file_does_not() -> None:
     assert hello().scene.model == hello(scene={"toml": TABLE}).scene.model == LIVE_MODEL
-    assert hello().scene.rewards == LIVE_REWARDS
     own = hello(scene={"toml": TABLE + "[model]\np_l = 0.9\n"}).scene.model
     assert own == LIVE_MODEL.with_changes({"p_l": 0.9})
     constant = hello(scene={"toml": TABLE + "[model]\nturns = false\n"}).scene.model

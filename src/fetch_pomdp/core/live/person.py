@@ -1,16 +1,16 @@
-"""The model of a live person: what the robot expects of people, and what its doings cost, wherever it meets somebody.
+"""The model of a live person: what the robot expects of people wherever it meets somebody.
 
 The defaults of `Model` are the paper's, of people who speak in 19 of 20 seconds. Live people say a thing once and wait
 (`turns`), so that the robot would wait for their next word for ever; Section V saw that too.
 
-Choice: alpha and p_truth are those of our simulated people, as `fetch-pomdp calibrate` finds them: a word that is not the
-item's is rarer than the paper has it, and answers are misheard more often than once in a hundred. sigma stays the
+Choice: alpha and p_truth are those of our simulated people, as `fetch-pomdp calibrate` finds them: a word that is not
+the item's is rarer than the paper has it, and answers are misheard more often than once in a hundred. sigma stays the
 paper's: arms are steadier, but who points for ten seconds says no more than who points for two, and each step's ray
 counts anew.
 
-Choice: a question costs the time it takes, in waits; at the paper's 6 points it is dearer than a guess between two
-items that are nearly sure. A wrong item costs what it does in the paper: dearer, and robots that never ask would never
-hand over one of two alike items, for their search sees two waits and no end of them.
+Choice: prices are the paper's. A question at the price of the time it takes is asked at the first sight of an arm; and
+where a wrong item is dearer, robots that never ask never hand over one of two alike items, for their search sees two
+waits and no end of them.
 """
 
 from __future__ import annotations
@@ -19,19 +19,18 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from fetch_pomdp.core.model import Model, Rewards
+from fetch_pomdp.core.model import Model
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.turns import Turns
 
 LIVE_MODEL = Model(alpha=0.04, p_l=0.3, p_g=0.1, p_truth=0.95, turns=Turns())
-LIVE_REWARDS = Rewards(point=-2.8)
 
 
 def live_scene(name_or_path: str | Path) -> Scene:
     """Load a scene as `Scene.load` does, before live people where its file does not say otherwise."""
-    return Scene.load(name_or_path, LIVE_MODEL, LIVE_REWARDS)
+    return Scene.load(name_or_path, LIVE_MODEL)
 
 
 def live_scene_from(data: Mapping[str, Any]) -> Scene:
     """Build a scene from the fields of a scene file as `Scene.from_mapping` does, before live people."""
-    return Scene.from_mapping(data, LIVE_MODEL, LIVE_REWARDS)
+    return Scene.from_mapping(data, LIVE_MODEL)
