@@ -50,15 +50,18 @@ class Turns:
     """Chances in a step of a live person. Raises ModelError for one out of its range.
 
     The defaults are those of our simulated people (`study.people`) on the clock of a live interaction, counted as
-    `fetch-pomdp calibrate --turns` counts, but for one.
+    `fetch-pomdp calibrate --turns` counts, but for two.
+
+    Choice: who points is about to speak, with a chance of 0.4 a step, in a step of the robot's question too: counted
+    chances would have it ask at the first sight of an arm, in the middle of what people want to say.
 
     Choice: an answer that has not come in two steps still comes with a chance of 0.4 a step, where our simulated people
     have long answered: who thinks for five seconds is not to be handed a guess.
     """
 
     words_unbegun: Chances = (0.033, 0.6)
-    words_pointed: Chances = (0.355, 0.689)
-    words_due: Chances = (0.104, 0.455)
+    words_pointed: Chances = (0.4, 0.5)
+    words_due: Chances = (0.4, 0.5)
     words_said: Chances = (0.031, 0.002)
     words_heard: Chances = (0.046, 0.015)
     words_silent: Chances = (0.015, 0.292)
