@@ -16,7 +16,7 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
-from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, met_live
+from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, loaded
 from fetch_pomdp.cli.show import show_event
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.action import Pick
@@ -24,6 +24,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.core.ports import Recognizer, SkeletonSource
@@ -76,7 +77,7 @@ def fetch(
     With --audio or --skeleton the person is a recording or a stream. With neither you are the person: type what you
     would say, with @item for an item that you point at.
     """
-    table = met_live(scene, model)
+    table = loaded(scene, model, live_scene)
     parameters = {
         name: value for name, value in (("depth", depth), ("width", width), ("budget_ms", budget)) if value is not None
     }

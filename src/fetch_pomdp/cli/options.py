@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import Planner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.scene import Scene
@@ -39,15 +39,9 @@ def built_planner(name: str | None, **parameters: Any) -> Planner:
     return planner_named(DEFAULT if name is None else name, **parameters)
 
 
-def loaded(scene: str, model: Path | None) -> Scene:
-    """Return a scene by name or path, with the parameters of a model file if there is one."""
-    table = Scene.load(scene)
-    return table if model is None else with_model(table, model)
-
-
-def met_live(scene: str, model: Path | None) -> Scene:
-    """Return a scene as `loaded`, before live people: with their model where neither file says otherwise."""
-    table = live_scene(scene)
+def loaded(scene: str, model: Path | None, load: Callable[[str], Scene] = Scene.load) -> Scene:
+    """Return a scene by name or path, with the parameters of a model file if there is one. load: loads the scene."""
+    table = load(scene)
     return table if model is None else with_model(table, model)
 
 

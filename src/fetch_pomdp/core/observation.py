@@ -86,8 +86,11 @@ def phase_after(
 ) -> int:
     """Return the phase (`turns`) that a step leads to which began with an action.
 
-    asked: i_r in the step, for words that answer nothing change nothing. Of several responses the last counts.
+    asked: i_r in the step, for words that answer nothing change nothing. Of several responses the last counts. The
+    paper's one phase stays.
     """
+    if problem.model.turns is None:
+        return phase
     utterance = unigram.split(observation.words, problem)
     answer = SILENT
     if utterance.response and asked is not None:

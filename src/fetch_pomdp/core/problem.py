@@ -133,6 +133,7 @@ class Problem:
         if model.turns:
             phases = phases_of(model.turns)
             if model.p_g == 0.0:  # nobody points, live people neither: a ray is then null to the filter
+                phases = phases._replace(chances=phases.chances.copy())
                 phases.chances[..., POINTS] = 0.0
             p_answer, _, p_again, _ = (sum(pair) / 2 for pair in zip(
                 model.turns.answers_desired, model.turns.answers_other, strict=True))  # fmt: skip

@@ -91,10 +91,10 @@ class Scene:
         raise SceneError(f"found {checks.shown(id)}, expected one of {', '.join(names)}{more}", field=field)
 
     @classmethod
-    def load(cls, name_or_path: str | Path, model: Model | None = None, rewards: Rewards | None = None) -> Self:
+    def load(cls, name_or_path: str | Path, model: Model | None = None) -> Self:
         """Return a built-in scene by name (ambiguous, unambiguous) or read one from a TOML file.
 
-        model, rewards: what holds where the file does not say; the paper's unless given.
+        model: what holds where the file does not say; the paper's unless given.
 
         Raises SceneError or ModelError, with file, line and field, for what is not a scene.
         """
@@ -102,18 +102,18 @@ class Scene:
             found = f"found {checks.shown(name_or_path)}, expected a Scene, its name, or the path of a TOML file"
             raise SceneError(found, field="scene")
         if str(name_or_path) in LAYOUTS:
-            return cls.from_mapping(LAYOUTS[str(name_or_path)], model, rewards)
+            return cls.from_mapping(LAYOUTS[str(name_or_path)], model)
         path = Path(name_or_path)
         if not path.suffix and not _exists(path):
             expected = f"expected one of {', '.join(LAYOUTS)}, or a TOML file{checks.hint(path.name, LAYOUTS)}"
             raise SceneError(f"found no such scene or file, {expected}", source=str(path))
-        return read_toml(path, SceneError).build(lambda data: cls.from_mapping(data, model, rewards))
+        return read_toml(path, SceneError).build(lambda data: cls.from_mapping(data, model))
 
     @classmethod
-    def from_mapping(cls, data: Mapping[str, Any], model: Model | None = None, rewards: Rewards | None = None) -> Self:
+    def from_mapping(cls, data: Mapping[str, Any], model: Model | None = None) -> Self:
         """Build a scene from the fields of a scene file: head, items, and optionally model, rewards and answers.
 
-        model, rewards: what holds where the fields do not say; the paper's unless given.
+        model: what holds where the fields do not say; the paper's unless given.
         """
         checks.known(data, ("head", "items", "model", "rewards", "answers"), "field", SceneError)
         checks.required(data, ("head", "items"), SceneError)
@@ -125,7 +125,7 @@ class Scene:
             section = "model"
             model = (model or Model()).with_changes(checks.mapping(data.get("model", {}), "", SceneError))
             section = "rewards"
-            rewards = (rewards or Rewards()).with_changes(checks.mapping(data.get("rewards", {}), "", SceneError))
+            rewards = Rewards().with_changes(checks.mapping(data.get("rewards", {}), "", SceneError))
             section = "answers"
             answers = Answers.from_mapping(checks.mapping(data.get("answers", {}), "", SceneError))
         except InputError as error:

@@ -21,6 +21,7 @@ explained. So silence after a question tells something too.
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Self
@@ -137,8 +138,9 @@ def constant_phases(p_l: float, p_again: float, p_g: float) -> Phases:
     return Phases(chances, np.zeros((1, 2, 2, 2, 3), dtype=np.int64), none, one, one)
 
 
+@functools.lru_cache(maxsize=32)
 def phases_of(turns: Turns) -> Phases:
-    """Return the phases of live people.
+    """Return the phases of live people; kept, for a study builds a problem for every trial. Not to be changed in place.
 
     Choice: a fitted value takes the phases between the words of a request and people's patience for one.
     """

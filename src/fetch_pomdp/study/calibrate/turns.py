@@ -11,6 +11,7 @@ from fetch_pomdp.core.gesture import is_pointing
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.observation import phase_after
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.turns import LEAST, Turns, places_of
 from fetch_pomdp.study.calibrate.steps import Interaction, Step, steps_of
 
@@ -52,10 +53,12 @@ def tally(interactions: Iterable[Interaction], start: Turns) -> Tally:
     start: says how many steps people's patience lasts, and how many a question counts for.
     """
     found = Tally({}, {})
+    problems: dict[Scene, Problem] = {}
     for one in interactions:
-        model = one.scene.model.with_changes({"turns": start})
-        problem = Problem(dataclasses.replace(one.scene, model=model))
-        phase = 0
+        if one.scene not in problems:
+            model = one.scene.model.with_changes({"turns": start})
+            problems[one.scene] = Problem(dataclasses.replace(one.scene, model=model))
+        problem, phase = problems[one.scene], 0
         for step in steps_of(one.events):
             _count(step, phase, one.desired, problem, start, found)
             phase = phase_after(step.observation, step.action, problem, phase, asked=step.asked)

@@ -1,7 +1,7 @@
 """A node whose answers are summed exactly.
 
-Words and pointing do not depend on the action, so one sample of them serves all actions of a node; of each the answers
-are tried in turn.
+One sample of words and pointing serves all actions of a node; of each the answers are tried in turn. Before live people
+words and pointing are likelier in the step of a question, so that the sample has two rows, from the same numbers.
 """
 
 from __future__ import annotations
