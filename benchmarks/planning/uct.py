@@ -196,7 +196,7 @@ def point_at(desired: int, likelihood: Vector, state: npt.NDArray[np.uint64], ta
         angles = np.arccos(np.minimum(1.0, tables.directions @ ray))
         if angles.min() <= tables.threshold:
             for item in range(len(likelihood)):
-                likelihood[item] *= ray_likelihood(angles[item], tables)
+                likelihood[item] *= ray_likelihood(angles[item], tables.sigma, tables)
             return int(angles.argmin())
     likelihood *= tables.null_chance
     return -1

@@ -14,6 +14,7 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import LARGEST_EXACT, angle_between, miss_chances, turned
 from fetch_pomdp.core.scene import Item, Scene
+from fetch_pomdp.core.turns import constant_chances
 from fetch_pomdp.errors import ModelError, ObservationError
 from tests.oracles import model as oracle
 from tests.oracles import rays as brute
@@ -179,7 +180,7 @@ def test_sampler_counted_against_the_exact_density() -> None:
     problem = table([["a"], ["b"]], places=[(0.0, 2.0, 1.6), (0.8, 2.0, 1.6)], gesture_likelihood="exact", p_g=0.8)
     items = brute.directions(problem.scene.head, [item.position for item in problem.scene.items])
     rng, draws = np.random.default_rng(3), 8_000
-    drawn = [gesture.sample(0, problem, 0.8, rng) for _ in range(draws)]
+    drawn = [gesture.sample(0, problem, constant_chances(0.5, 0.8), rng) for _ in range(draws)]
     edges = [0.0, 0.02, 0.1, 0.2, 0.3, 0.5, 1.2]
     chances = np.zeros(len(edges) - 1)
     rays, areas = brute.sphere_grid(items[0], rings=300, rolls=48, widest=1.2)
@@ -200,7 +201,9 @@ def test_sampler_counted_against_the_exact_density() -> None:
 def test_sampled_rays_roll_evenly_around_the_item() -> None:
     problem = table([["a"]], places=[(0.0, 2.0, 1.6)], p_g=0.9, gesture_threshold=1.0)
     rng = np.random.default_rng(5)
-    rays = [ray for _ in range(4_000) if (ray := gesture.sample(0, problem, 0.9, rng)) is not None]
+    rays = [
+        ray for _ in range(4_000) if (ray := gesture.sample(0, problem, constant_chances(0.5, 0.9), rng)) is not None
+    ]
     sideways = np.array([[ray.wrist[0], ray.wrist[2] - 1.6] for ray in rays])
     quadrants = np.bincount(2 * (sideways[:, 0] > 0) + (sideways[:, 1] > 0), minlength=4) / len(rays)
     assert np.abs(quadrants - 0.25).max() <= 4 * math.sqrt(0.25 * 0.75 / len(rays))
@@ -209,7 +212,7 @@ def test_sampled_rays_roll_evenly_around_the_item() -> None:
 def test_default_sampler_has_the_angles_of_a_gaussian() -> None:
     """Eq. 7, the default, is no density of these rays, and exempt; their angles are |N(0, sigma)|, cut off."""
     rng, draws = np.random.default_rng(11), 20_000
-    drawn = [gesture.sample(0, FORWARD, 0.1, rng) for _ in range(draws)]
+    drawn = [gesture.sample(0, FORWARD, constant_chances(0.5, 0.1), rng) for _ in range(draws)]
     angles = np.array([gesture.angles(ray, FORWARD)[0] for ray in drawn if ray is not None])
     for low, high in [(0.0, 0.05), (0.05, 0.15), (0.15, 0.3)]:
         chance = 0.1 * (math.erf(high / 0.15 / math.sqrt(2)) - math.erf(low / 0.15 / math.sqrt(2)))

@@ -11,10 +11,11 @@ from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import angles
-from fetch_pomdp.core.interaction import Timing, interact, median_ray, pointing_arms
+from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.language.answers import PAPER
 from fetch_pomdp.core.ports import Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item
+from fetch_pomdp.core.senses import median_ray, pointing_arms
 from fetch_pomdp.errors import ModelError, ObservationError
 from tests.core.scripted import Script
 

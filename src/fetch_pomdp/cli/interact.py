@@ -29,6 +29,7 @@ from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.core.ports import Recognizer, SkeletonSource
 from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.simulation import MOST_STEPS
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.files.decisions import belief_to_json, decision_to_json
 from fetch_pomdp.files.events import event_to_json
@@ -36,6 +37,8 @@ from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.recordings import EventLog
 
 STREAM = "-"
+TYPED = Timing(wait=1.0, question=1.0, after=1.0)  # a line a step; an empty one after a hand-over ends it
+RECORDED = Timing(after=8.0)
 MICROPHONE = "mic"
 
 Audio = Annotated[
@@ -96,8 +99,8 @@ def fetch(
         prepare(agent.planner, agent.problem)
         record = open_files.enter_context(EventLog.create(log, header)) if log else None
         said: list[str] = []
-        timing = Timing(wait=1.0, question=1.0) if typed else Timing()
-        events = interact(agent, ConsoleRobot(said.append), ears, eyes, timing=timing)
+        timing, steps = (TYPED, sys.maxsize) if typed else (RECORDED, MOST_STEPS)
+        events = interact(agent, ConsoleRobot(said.append), ears, eyes, timing=timing, most_steps=steps)
         _follow(_recorded(events, record), agent, said, console, json_lines=json_lines)
 
 

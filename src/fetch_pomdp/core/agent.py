@@ -23,6 +23,7 @@ from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
+from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.model import Model, Rewards
@@ -58,15 +59,21 @@ class Agent:
         self.answers: Lexicon = lexicon(table.answers, self.problem.words)
         self.planner: Planner = FittedValue() if planner is None else _planner(planner)
         self.seed = checks.whole(seed, 0, 2**63 - 1, "seed", PlannerError)
-        self.asked: int | None = None  # i_r, as an index into the scene's items
-        self._belief = Belief.uniform(self.problem.n_items) if prior is None else Belief(prior)
-        if len(self._belief.log_probabilities) != self.problem.n_items:
-            found = len(self._belief.log_probabilities)
+        self._prior = Belief.uniform(self.problem.n_items) if prior is None else Belief(prior)
+        if len(self._prior.log_probabilities) != self.problem.n_items:
+            found = len(self._prior.log_probabilities)
             raise ObservationError(f"found {found} probabilities, expected {self.problem.n_items}", field="prior")
+        self._steps = 0
+        self.begin()
+
+    def begin(self) -> None:
+        """Begin with a request: nothing of it was heard, seen or asked yet."""
+        self._belief = self._prior
+        self.asked: int | None = None  # i_r, as an index into the scene's items
+        self.handed: int | None = None  # the item that was handed over last, if nothing was done since
         self.phase = 0  # where the talk stands (`turns`)
         self._acted: Action = Wait()  # since the last observation
         self._evidence = Evidence.none(self._belief.log_probabilities)
-        self._steps = 0
 
     @property
     def belief(self) -> Vector:
@@ -87,6 +94,11 @@ class Agent:
     def after(self) -> After:
         """What the words heard next follow: a question as long as none of them has answered it, or nothing."""
         return After.NOTHING if self._evidence.unanswered is None else After.QUESTION
+
+    @property
+    def unanswered(self) -> int:
+        """How often the robot has asked what nobody has answered for long (`turns`); 0 while an answer is due."""
+        return int(self.problem.tables.late[self.phase])
 
     @property
     def chances(self) -> StepChances:
@@ -118,11 +130,14 @@ class Agent:
     def update(self, observation: Observation) -> Utterance:
         """Take in an observation; return how its words were understood, by the paper's lists of answers.
 
-        Raises ObservationError for anything else.
+        Who wants nothing any more ("never mind") begins anew, with whatever they say beside it. Raises
+        ObservationError for anything else.
         """
         if not isinstance(observation, Observation):
             raise ObservationError(f"found {shown(observation)}, expected Observation(...)", field="observation")
         utterance = unigram.split(observation.words, self.problem)
+        if utterance.meaning is Meaning.CANCEL:
+            self.begin()
         parts = observations.log_likelihoods(observation, self.asked, self.problem, self.chances)
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
         self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase, asked=self.asked)
@@ -159,6 +174,7 @@ class Agent:
         """
         self._check(action)
         self.asked, self._acted = asked_after(action, self.asked), action
+        self.handed = action.item if isinstance(action, Pick) else None
         if isinstance(action, Point):
             self._evidence = self._evidence.asked(action.item)
         self._steps += 1
@@ -166,6 +182,8 @@ class Agent:
     def take(self, event: Event) -> None:
         """Go on from an event: an observation, or what an action came to. Live and replayed alike."""
         if isinstance(event, Observed):
+            if event.anew:
+                self.begin()
             self.update(event.observation)
         elif event.counts_as is not None:
             self.did(event.counts_as)

@@ -16,7 +16,8 @@ class Observed:
     """The robot took in an observation of a step that ended at `time` (s); words: as they were heard.
 
     spoken: the words that the person really said, where somebody wrote them down; no belief reads them. early: whether
-    it was heard while the next action, which had been decided, went on.
+    it was heard while the next action, which had been decided, went on. anew: whether it begins another request, after
+    a hand-over.
     """
 
     observation: Observation
@@ -24,6 +25,7 @@ class Observed:
     time: float | None = None
     spoken: tuple[str, ...] | None = None
     early: bool = False
+    anew: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +48,8 @@ class Acted:
 
     @property
     def objected(self) -> bool:
-        """Whether this is a pick that was stopped: the person saw what the robot reached for, and did not want it."""
-        return isinstance(self.action, Pick) and self.outcome is Outcome.STOPPED
+        """Whether this is a pick that was stopped or given back: the person saw what it is, and did not want it."""
+        return isinstance(self.action, Pick) and self.outcome in (Outcome.STOPPED, Outcome.RETURNED)
 
     @property
     def counts_as(self) -> Action | None:

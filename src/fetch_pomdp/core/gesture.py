@@ -18,6 +18,7 @@ from fetch_pomdp.checks import Point3
 from fetch_pomdp.core.compiled import Vector, lean
 from fetch_pomdp.core.problem import Problem, Tables
 from fetch_pomdp.core.rays import angles_from, turned
+from fetch_pomdp.core.turns import StepChances
 from fetch_pomdp.errors import ObservationError
 
 SMALLEST_ANGLE = 1e-3  # rad: the exact density is infinite on the axis, so angles are floored here
@@ -52,42 +53,43 @@ def is_pointing(ray: Ray, problem: Problem) -> bool:
     return bool(angles(ray, problem).min() <= problem.model.gesture_threshold)
 
 
-def log_likelihood(ray: Ray | None, problem: Problem) -> Vector:
+def log_likelihood(ray: Ray | None, problem: Problem, width: float = 1.0) -> Vector:
     """Log density of a pointing ray, given each item as the desired one, log p(g | i_d) (Eq. 7).
 
     The density is per radian for "eq7" and per steradian for "exact". A ray beyond the threshold of every item is null,
-    like None. Returns (n_items,) in scene order.
+    like None. width: what sigma is multiplied by. Returns (n_items,) in scene order.
 
     Choice: where p_g is 0 nobody points, so that any ray is an arm that moves for another reason: null.
     """
     if ray is not None and problem.model.p_g > 0.0:
         found = angles(ray, problem)
         if found.min() <= problem.model.gesture_threshold:
-            return log_density(found, problem)
+            return log_density(found, problem, width)
     return np.log(problem.tables.null_chance)
 
 
-def log_density(found: Vector, problem: Problem) -> Vector:
+def log_density(found: Vector, problem: Problem, width: float = 1.0) -> Vector:
     """Log density of a ray that points, at each of some angles (rad) from the desired item (Eq. 7, upper case).
 
-    Per radian for "eq7" and per steradian for "exact"; p_g above 0. found: (n,). Returns (n,).
+    Per radian for "eq7" and per steradian for "exact"; p_g above 0. found: (n,). width: what sigma is multiplied by.
+    Returns (n,).
     """
-    model = problem.model
-    normal = math.log(model.p_g) - 0.5 * (found / model.sigma) ** 2 - math.log(model.sigma * math.sqrt(math.tau))
+    model, sigma = problem.model, problem.model.sigma * width
+    normal = math.log(model.p_g) - 0.5 * (found / sigma) ** 2 - math.log(sigma * math.sqrt(math.tau))
     if model.gesture_likelihood == "eq7":
         return np.asarray(normal)
     # |N(0, sigma)| has twice the density of N(0, sigma), and the roll spreads it over a circle of 2 pi sin t.
     return np.asarray(normal + math.log(2.0 / math.tau) - np.log(np.sin(np.maximum(found, SMALLEST_ANGLE))))
 
 
-def sample(desired: int, problem: Problem, p_points: float, rng: Generator) -> Ray | None:
+def sample(desired: int, problem: Problem, chances: StepChances, rng: Generator) -> Ray | None:
     """Draw the gesture of one step: a ray of 1 m from the scene's head, or None (Section III-D-2).
 
-    p_points: chance of pointing at all.
+    chances: of the step, see `Problem.step_chances`.
     """
-    if rng.random() >= p_points:
+    if rng.random() >= chances.points:
         return None
-    angle, roll = abs(rng.normal(0.0, problem.model.sigma)), rng.uniform(0.0, math.tau)
+    angle, roll = abs(rng.normal(0.0, problem.model.sigma * chances.width)), rng.uniform(0.0, math.tau)
     x, y, z = turned(problem.tables.directions[desired], angle, roll)
     head = problem.scene.head
     ray = Ray(head, (head[0] + x, head[1] + y, head[2] + z))
@@ -95,9 +97,9 @@ def sample(desired: int, problem: Problem, p_points: float, rng: Generator) -> R
 
 
 @lean
-def ray_likelihood(angle: float, tables: Tables) -> float:
-    """Return the likelihood of a ray at `angle` (rad) from an item, up to a factor that all items share (Eq. 7)."""
-    likelihood = math.exp(-0.5 * (angle / tables.sigma) ** 2)
+def ray_likelihood(angle: float, sigma: float, tables: Tables) -> float:
+    """Return the likelihood of a ray at `angle` from an item, up to a factor that all items share (Eq. 7); rad."""
+    likelihood = math.exp(-0.5 * (angle / sigma) ** 2)
     if tables.exact:
         likelihood /= math.sin(max(angle, SMALLEST_ANGLE))
     return likelihood

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp.checks import shown
@@ -13,10 +15,13 @@ from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
+from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.words import POSITIVE
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.turns import NO, SILENT, YES, StepChances
+from fetch_pomdp.core.turns import NO, REPEAT, SILENT, UNSURE, YES, StepChances
 from fetch_pomdp.errors import ObservationError
+
+EVASIONS: Mapping[Meaning | None, int] = {Meaning.UNSURE: UNSURE, Meaning.REPEAT: REPEAT}
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,13 +69,18 @@ def log_likelihoods(observation: Observation, asked: int | None, problem: Proble
     """Log p(o | i_d, i_r) for each item as the desired one (Eq. 1-3), part by part: given the state they are
     independent.
 
+    Choice: "I don't know" is neither an answer nor silence, and tells nothing.
+
     asked: index of i_r, or None. chances: of the step, see `Problem.step_chances`.
     """
     utterance = unigram.split(observation.words, problem)
+    answers = np.zeros(problem.n_items)
+    if utterance.response or utterance.meaning not in EVASIONS:
+        answers = unigram.response_log_likelihood(utterance.response, asked, problem, chances)
     return Parts(
         unigram.base_log_likelihood(utterance.base, problem),
-        unigram.response_log_likelihood(utterance.response, asked, problem, chances),
-        gesture.log_likelihood(observation.ray, problem),
+        answers,
+        gesture.log_likelihood(observation.ray, problem, chances.width),
     )
 
 
@@ -78,7 +88,7 @@ def sample(desired: int, asked: int | None, problem: Problem, chances: StepChanc
     """Draw an observation o ~ p(o | i_d, i_r). chances: of the step, see `Problem.step_chances`."""
     base = unigram.sample_base(desired, problem, chances.words, rng)
     response = unigram.sample_response(desired, asked, problem, chances, rng)
-    return Observation(base + response, gesture.sample(desired, problem, chances.points, rng))
+    return Observation(base + response, gesture.sample(desired, problem, chances, rng))
 
 
 def phase_after(
@@ -93,8 +103,10 @@ def phase_after(
         return phase
     utterance = unigram.split(observation.words, problem)
     answer = SILENT
-    if utterance.response and asked is not None:
+    if asked is not None and utterance.response:
         answer = YES if utterance.response[-1] in POSITIVE else NO
+    elif asked is not None:
+        answer = EVASIONS.get(utterance.meaning, SILENT)
     seen = observation.ray is not None and gesture.is_pointing(observation.ray, problem)
     following = problem.tables.following[phase, int(not isinstance(action, Wait)), int(bool(utterance.base)), int(seen)]
     return int(following[answer])

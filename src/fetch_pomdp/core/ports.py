@@ -39,6 +39,7 @@ class Outcome(Enum):
     DONE = "done"
     FAILED = "failed"  # the robot could not
     STOPPED = "stopped"  # the person, or `Robot.stop`, kept it from it
+    RETURNED = "returned"  # it was done, and the person gave the item back
 
 
 class Recognizer(Protocol):
@@ -83,6 +84,10 @@ class Robot(Protocol):
 
     def pick(self, item: Item) -> Outcome:
         """Hand an item over."""
+        ...
+
+    def take_back(self, item: Item) -> Outcome:
+        """Take an item back that was handed over, and put it where it was."""
         ...
 
     def say(self, text: str) -> Outcome:

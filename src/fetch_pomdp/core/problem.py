@@ -45,11 +45,12 @@ class Tables(NamedTuple):
     pick_wrong: float
     point: float
     wait: float
-    chances: Vector  # (phases, 2, 4), and the next two: see `turns.Phases`
-    following: Integers  # (phases, 2, 2, 2, 3)
+    chances: Vector  # (phases, 2, 5), and the next two: see `turns.Phases`
+    following: Integers  # (phases, 2, 2, 2, 5)
     alike: Integers  # (phases,)
     begun: Integers  # (phases,)
     awaited: Integers  # (phases,)
+    late: Integers  # (phases,)
 
 
 def constant_only(problem: Problem, what: str) -> None:
@@ -166,4 +167,5 @@ class Problem:
             alike=phases.alike,
             begun=phases.begun,
             awaited=phases.awaited,
+            late=phases.late,
         )

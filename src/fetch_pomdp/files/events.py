@@ -19,6 +19,7 @@ from fetch_pomdp.errors import ActionError, EventError, InputError
 
 ACTIONS = ("wait", "point", "pick")
 OUTCOMES = tuple(outcome.value for outcome in Outcome)
+FLAGS = ("early", "anew")  # of an observation
 
 
 def event_from_json(data: Mapping[str, Any], scene: Scene) -> Event:
@@ -27,16 +28,17 @@ def event_from_json(data: Mapping[str, Any], scene: Scene) -> Event:
         raise EventError("found an observation too, expected a line for each", field="action")
     if "action" in data:
         return _acted(data, scene)
-    checks.known(data, ("observation", "t", "early"), "field", EventError)
+    checks.known(data, ("observation", "t", *FLAGS), "field", EventError)
     checks.required(data, ("observation",), EventError)
-    time, early = _time(data.get("t"), "t"), data.get("early", False)
-    if not isinstance(early, bool):
-        raise EventError(f"found {shown(early)}, expected true or false", field="early")
+    time = _time(data.get("t"), "t")
+    for name in FLAGS:
+        if not isinstance(data.get(name, False), bool):
+            raise EventError(f"found {shown(data[name])}, expected true or false", field=name)
     try:
         observed = _observed(checks.mapping(data["observation"], "", EventError), time)
     except InputError as error:
         raise error.within("observation") from None
-    return dataclasses.replace(observed, early=early)
+    return dataclasses.replace(observed, **{name: data.get(name, False) for name in FLAGS})
 
 
 def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
@@ -147,4 +149,4 @@ def _observed_to_json(event: Observed) -> dict[str, Any]:
         fields |= {"head": list(observation.ray.head), "wrist": list(observation.ray.wrist)}
     if event.spoken is not None:
         fields["spoken"] = " ".join(event.spoken)
-    return {"observation": fields, "early": True} if event.early else {"observation": fields}
+    return {"observation": fields} | {name: True for name in FLAGS if getattr(event, name)}

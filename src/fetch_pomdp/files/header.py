@@ -17,8 +17,8 @@ from fetch_pomdp.errors import EventError, InputError, SceneError
 from fetch_pomdp.files.events import item_index
 from fetch_pomdp.files.models import changed
 
-VERSION = 2
-READ = (1, VERSION)
+VERSION = 3
+READ = (1, 2, VERSION)
 FIELDS = ("scene", "model", "rewards", "version", "planner", "seed", "target")
 STUDY_FIELDS = ("person", "layout", "paradigm", "order", "begun")  # from version 2 on
 
@@ -55,7 +55,7 @@ def header_from_json(data: Mapping[str, Any]) -> Header:
     """Build a header from the fields of a first line."""
     version = data.get("version", VERSION)
     if type(version) is not int or version not in READ:
-        raise EventError(f"found {shown(version)}, expected {' or '.join(map(str, READ))}", field="version")
+        raise EventError(f"found {shown(version)}, expected one of {', '.join(map(str, READ))}", field="version")
     checks.known(data, FIELDS if version == 1 else FIELDS + STUDY_FIELDS, "field", EventError)
     checks.required(data, ("scene",), EventError)
     scene = changed(_scene(data["scene"]), data, EventError)

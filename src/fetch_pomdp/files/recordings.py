@@ -30,8 +30,8 @@ class Recording:
 
     @property
     def over(self) -> bool:
-        """Whether an item was handed over."""
-        return any(ends(event) for event in self.events)
+        """Whether an item was handed over, and nothing came after it."""
+        return bool(self.events) and ends(self.events[-1])
 
     def replay(self, agent: Agent) -> Iterator[Event]:
         """Let an agent live through the interaction; yield each event after the agent has taken it in.

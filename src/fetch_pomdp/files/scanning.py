@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from fetch_pomdp.core.action import Pick
-from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.layouts import LAYOUTS
+from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.documents import Document, json_line, read_raw
 from fetch_pomdp.errors import EventError, InputError
 from fetch_pomdp.files.events import event_from_json
@@ -50,8 +51,8 @@ def scanned(path: str | Path) -> Scan:
         found = []
         event = _built(document, lambda data: event_from_json(data, scene), found, {"item": scene.items[0].id})
         faults += [fault for fault in found if scene_known or fault.field != "item"]
-        if events and ends(events[-1]):
-            after = "found an event after a pick that was done, expected the end of the interaction"
+        if event is not None and not _may_follow(event, events):
+            after = "found an event after a pick that was done, expected the end, its return, or a request anew"
             faults.append(EventError(after, source=document.source, line=document.line_of("")))
             break
         if event is not None:
@@ -60,8 +61,19 @@ def scanned(path: str | Path) -> Scan:
     return Scan(header, tuple(events), tuple(documents), tuple(faults), torn)
 
 
+def _may_follow(event: Event, events: Sequence[Event]) -> bool:
+    """Whether an event may come after those before: a hand-over ends all but what takes it back or begins anew."""
+    last = events[-1] if events else None
+    if isinstance(event, Observed):
+        return event.anew == (last is not None and ends(last))
+    returned = event.outcome is Outcome.RETURNED
+    if last is None or not isinstance(last, Acted) or not ends(last):
+        return not returned
+    return returned and event.action == last.action
+
+
 def ends(event: Event) -> bool:
-    """Whether an interaction ends with this event: an item was handed over."""
+    """Whether an interaction may end with this event: an item was handed over."""
     return isinstance(event, Acted) and event.done and isinstance(event.action, Pick)
 
 

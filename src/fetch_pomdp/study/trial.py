@@ -40,6 +40,8 @@ class Trial:
 def scored(assignment: Assignment, events: Iterable[Event], scene: Scene, begun: float) -> Trial:
     """Return how a trial went from what happened in it; begun: when the request began (s).
 
+    A trial ends with the first hand-over, whatever comes of it.
+
     Choice: a robot that picks before the request begins took no time, not less than none.
     """
     questions = waits = 0
@@ -51,6 +53,7 @@ def scored(assignment: Assignment, events: Iterable[Event], scene: Scene, begun:
             waits += isinstance(event.action, Wait)
             if isinstance(event.action, Pick):
                 picked = scene.items[event.action.item].id
+                break
     return Trial(
         assignment.person, assignment.layout, assignment.paradigm, assignment.desired, assignment.order,
         max(0.0, time - begun), picked == assignment.desired, picked, questions, waits,

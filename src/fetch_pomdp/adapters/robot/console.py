@@ -25,6 +25,10 @@ class ConsoleRobot:
         """Hand an item over."""
         return self._do(f"(hands over {item.id}) Here you are.")
 
+    def take_back(self, item: Item) -> Outcome:
+        """Take an item back."""
+        return self._do(f"(puts {item.id} back)")
+
     def say(self, text: str) -> Outcome:
         """Say something."""
         return self._do(text)

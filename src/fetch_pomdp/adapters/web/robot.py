@@ -32,6 +32,11 @@ class PageRobot:
         self._stopped.clear()
         return self._then(GRASP + CARRY, HANDS_OVER, 0.0)
 
+    def take_back(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Take an item back from the person to its place."""
+        self._stopped.clear()
+        return Outcome.STOPPED if self._stopped.wait(CARRY + GRASP) else Outcome.DONE
+
     def say(self, text: str) -> Outcome:
         """Say something; the robot listens meanwhile."""
         self._say(text)

@@ -44,6 +44,10 @@ class Body:
         finally:
             self._picking = False
 
+    def take_back(self, item: Item) -> Outcome:
+        """Take an item back that was handed over."""
+        return self._carry_out(lambda: self._robot.take_back(item))
+
     def say(self, text: str) -> Outcome:
         """Say something."""
         return self._carry_out(lambda: self._robot.say(text))

@@ -8,11 +8,12 @@ from threading import RLock
 
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
-from fetch_pomdp.core.interaction import following, median_ray, texts
+from fetch_pomdp.core.interaction import following
 from fetch_pomdp.core.live.inbox import Inbox
 from fetch_pomdp.core.live.updates import BeliefChanged, Did, Heard, Update
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Word
+from fetch_pomdp.core.senses import median_ray, texts
 from fetch_pomdp.errors import InputError
 
 logger = logging.getLogger(__name__)

@@ -11,7 +11,6 @@ import logging
 import sys
 from collections.abc import Callable, Iterator
 
-from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Event, Observed
 from fetch_pomdp.core.interaction import Timing, interact
@@ -60,20 +59,18 @@ class LiveSession:
 
     def run(self) -> None:
         """Interact. To be called once."""
-        picked = None
         self._display.begin(self.clock.now())
         try:
             for event in self._events():
                 self._display.settle(event, self.clock.now())
                 if isinstance(event, Observed):
                     self._vitals.report(MODEL, State.OK)
-                elif isinstance(event.action, Pick) and event.done:
-                    picked = self.agent.item(event.action).id
         except Closed:
             logger.info("closed")
         finally:
             self._leave_inbox()
-        self._display.tell(Ended(picked))
+        handed = self.agent.handed
+        self._display.tell(Ended(None if handed is None else self.agent.scene.items[handed].id))
 
     def close(self) -> None:
         """End the interaction soon, from any thread; what the robot does is stopped."""

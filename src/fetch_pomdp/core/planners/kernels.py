@@ -14,7 +14,7 @@ from fetch_pomdp.core.gesture import ray_likelihood
 from fetch_pomdp.core.language.unigram import draw_word
 from fetch_pomdp.core.problem import Tables
 from fetch_pomdp.core.rays import turned
-from fetch_pomdp.core.turns import DESIRED, NO, OTHER, POINTS, SILENT, WORDS, YES
+from fetch_pomdp.core.turns import DESIRED, NO, OTHER, POINTS, SILENT, WIDTH, WORDS, YES
 
 NOBODY = -1
 WAITED, ASKED = range(2)  # kinds of step, see `turns.Phases`
@@ -56,7 +56,7 @@ def hear(
     words = say(desired, uniform(state) < chances[WORDS], belief, smoothed, heard, state, tables)
     seen = 0
     if uniform(state) < chances[POINTS]:
-        seen = see(desired, heard, state, tables)
+        seen = see(desired, tables.sigma * chances[WIDTH], heard, state, tables)
     else:
         see_nothing(heard, tables)
     return Came(words, seen)
@@ -93,9 +93,9 @@ def hear_word(belief: Vector, smoothed: float, word: int, heard: Vector, tables:
 
 
 @lean
-def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> int:
-    """Update by a ray drawn around the desired item (Eq. 7); return whether it points at the table."""
-    angle, roll = abs(standard_normal(state)) * tables.sigma, 2.0 * math.pi * uniform(state)
+def see(desired: int, sigma: float, heard: Vector, state: RandomState, tables: Tables) -> int:
+    """Update by a ray drawn around the desired item (Eq. 7); return whether it points at the table. sigma: rad."""
+    angle, roll = abs(standard_normal(state)) * sigma, 2.0 * math.pi * uniform(state)
     x, y, z = turned(tables.directions[desired], angle, roll)
     nearest = -1.0
     for item in range(len(heard)):
@@ -105,7 +105,7 @@ def see(desired: int, heard: Vector, state: RandomState, tables: Tables) -> int:
         return 0
     for item in range(len(heard)):
         # The arc cosine is off by 1e-8 rad near the axis: nothing for a plan, and faster than `angle_between`.
-        heard[item] *= ray_likelihood(math.acos(max(-1.0, min(1.0, cosine_of(item, x, y, z, tables)))), tables)
+        heard[item] *= ray_likelihood(math.acos(max(-1.0, min(1.0, cosine_of(item, x, y, z, tables)))), sigma, tables)
     normalise(heard)
     return 1
 

@@ -52,11 +52,13 @@ def steps_of(events: Iterable[Event]) -> Iterator[Step]:
 
     Choice: observations that follow one another without an action between are of one step: an answer that came before
     the question had been asked belongs to the step before. An action that was not done is a wait, but for a pick that
-    was stopped, which is a question.
+    was stopped, which is a question. A second request is another interaction, whose desired item nobody wrote down.
     """
     asked: int | None = None
     open_step: Step | None = None
     for event in events:
+        if isinstance(event, Observed) and event.anew:
+            break
         if isinstance(event, Observed):
             open_step = _with(open_step or Step(Wait(), asked, Observation()), event.observation)
             continue

@@ -33,7 +33,7 @@ class Tally:
         found = {
             field.name: tuple(self._chance(field.name, index, chance) for index, chance in enumerate(chances))
             for field in dataclasses.fields(start)
-            if isinstance(chances := getattr(start, field.name), tuple)
+            if isinstance(chances := getattr(start, field.name), tuple) and field.name != "held"
         }
         return start.with_changes(found)
 
@@ -68,7 +68,7 @@ def tally(interactions: Iterable[Interaction], start: Turns) -> Tally:
 def _count(step: Step, phase: int, desired: int, problem: Problem, start: Turns, found: Tally) -> None:
     said = split(step.observation.words, problem)
     ray = step.observation.ray
-    words, points, for_desired, for_other = places_of(phase, int(isinstance(step.action, Point)), start.patience)
+    words, points, for_desired, for_other = places_of(phase, int(isinstance(step.action, Point)), start)
     seen = ray is not None and is_pointing(ray, problem)
     answer = for_desired if step.asked == desired else for_other
     for place, happened in ((words, bool(said.base)), (points, seen), (answer, bool(said.response))):

@@ -84,6 +84,10 @@ class Person:
         self._next = None
         return Outcome.DONE
 
+    def take_back(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Give an item back: these people keep what they got."""
+        return Outcome.FAILED
+
     def say(self, text: str) -> Outcome:  # noqa: ARG002
         """Be told that the robot listens; some then say again what they want."""
         if self._rng.random() < self._traits.people.p_heed:

@@ -149,7 +149,8 @@ def chosen(root: Root, sums: Sums, passes: int, tables: Tables) -> Ahead:
     """Return what the sums of passes amount to; equal values go to the pick, then the wait, then the question.
 
     Choice: before live people a question about a less likely item has to be worth ALMOST more than one about a likelier
-    item: a robot that is shown one item and asks about its neighbour seems not to have looked.
+    item: a robot that is shown one item and asks about its neighbour seems not to have looked. So has one about another
+    item than that of a question that nobody has answered: who says "what?" wants to hear it again.
     """
     belief, count = root.belief, len(root.belief)
     asks, totals, squares = sums
@@ -159,7 +160,9 @@ def chosen(root: Root, sums: Sums, passes: int, tables: Tables) -> Ahead:
     best, action = pick_value(belief[asks[0]], tables), count + asks[0]
     if wait > best:
         best, action = wait, NOBODY
-    for index in range(len(asks)):
+    again = asked_again(root, asks, tables)
+    for number in range(len(asks)):
+        index = again if number == 0 else number - 1 if number <= again else number
         value = tables.point + totals[index] / passes
         point[asks[index]], point_errors[asks[index]] = value, math.sqrt(squares[index]) / passes
         margin = ALMOST if live and 0 <= action < count else 0.0
@@ -168,6 +171,16 @@ def chosen(root: Root, sums: Sums, passes: int, tables: Tables) -> Ahead:
     if tables.begun[root.phase] == 0:
         action = NOBODY
     return wait, point, math.sqrt(squares[-1]) / passes, point_errors, action
+
+
+@compiled
+def asked_again(root: Root, asks: Integers, tables: Tables) -> int:
+    """Return the place among `asks` of a question that nobody has answered for long, 0 if there is none."""
+    if tables.late[root.phase] > 0:
+        for index in range(len(asks)):
+            if asks[index] == root.asked:
+                return index
+    return 0
 
 
 @compiled

@@ -52,6 +52,7 @@ from fetch_pomdp.core.simulation import MOST_STEPS
 ROUNDS, SWEEPS = 3, 10
 REHEARSED = 500  # interactions, which show how many are cut short
 EXPLORES = 0.25  # share of the steps that explore: half of them wait, and more ask about the first than the second
+JUMPS = 0.05  # share of the steps that find live people in any phase: few fall silent of themselves
 RELUCTANT = 0.5  # share of the interactions that pick at no belief below one drawn uniformly
 ANSWERED = 0.2  # i_r that is no leader counts as answered up to this share of b2
 CERTAIN = 0.05  # b2 below which there is no second leader
@@ -172,6 +173,8 @@ def go_on(walk: Walk, table: ValueTable, tables: Tables) -> bool:
     if action >= len(belief):
         return False
     now["steps"][0] += 1
+    if len(tables.begun) > 1 and uniform(walk.state) < JUMPS:
+        now["phase"][0] = int(uniform(walk.state) * len(tables.begun))
     turn = turn_of(now["asked"][0], now["phase"][0], action)
     now["asked"][0] = turn.about
     now["phase"][0] = live_step(belief, turn, now["desired"][0], walk.heard, walk.state, tables)

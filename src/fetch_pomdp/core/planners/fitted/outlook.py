@@ -16,7 +16,7 @@ import numpy as np
 from fetch_pomdp.core.compiled import Integers, RandomState, Vector, inlined, lean, uniform
 from fetch_pomdp.core.planners.kernels import ASKED, WAITED, draw_item, hear_word, say, see, see_nothing
 from fetch_pomdp.core.problem import Problem, Tables
-from fetch_pomdp.core.turns import POINTS, WORDS
+from fetch_pomdp.core.turns import POINTS, WIDTH, WORDS
 
 MOST_WORDS = 12
 
@@ -98,7 +98,7 @@ def look(
             say(desired, words == 1, belief, smoothed, heard, state, tables)
             wait_share = wait[WORDS] if words else 1.0 - wait[WORDS]
             ask_share = ask[WORDS] if words else 1.0 - ask[WORDS]
-        seen = see(desired, heard, state, tables)
+        seen = see(desired, tables.sigma * wait[WIDTH], heard, state, tables)
         return Look(wait[POINTS] / of * wait_share, ask[POINTS] / of * ask_share, words, seen)
     words, wait_chance, ask_chance, share = 1, wait[WORDS], ask[WORDS], 1.0
     if index == 0:
