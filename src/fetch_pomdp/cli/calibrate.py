@@ -107,7 +107,9 @@ def _turns(interactions: list[Interaction]) -> dict[str, tuple[object, str]]:
     fields = dataclasses.asdict(counted.turns(start))
     fitted: dict[str, tuple[object, str]] = {}
     for name, value in fields.items():
-        if isinstance(value, tuple):
+        if name == "held":
+            fitted[name] = list(value), "times sigma, as before"
+        elif isinstance(value, tuple):
             fitted[name] = [min(float(f"{chance:.3g}"), 0.999) for chance in value], counted.counted(name)
         else:
             fitted[name] = value, "steps, as before"
