@@ -23,7 +23,7 @@ from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.interaction import Timing, interact
-from fetch_pomdp.core.language.names import as_spoken, named, words_besides_name
+from fetch_pomdp.core.language.names import named, words_besides_name
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import prepare
@@ -133,6 +133,7 @@ def _ears(scene: Scene, audio: str | None, rate: int) -> Recognizer | None:
         return None
     from fetch_pomdp.adapters.speech.audio import open_microphone, open_raw, open_wav
     from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
+    from fetch_pomdp.adapters.speech.stream import listened_for
 
     if audio == MICROPHONE:
         sound = open_microphone()
@@ -140,7 +141,7 @@ def _ears(scene: Scene, audio: str | None, rate: int) -> Recognizer | None:
         sound = open_raw(sys.stdin.buffer, rate, "standard input")
     else:
         sound = open_wav(audio)
-    return SphinxRecognizer(sound, as_spoken(scene.words))
+    return SphinxRecognizer(sound, listened_for(scene))
 
 
 def _recorded(events: Iterator[Event], record: EventLog | None) -> Iterator[Event]:
