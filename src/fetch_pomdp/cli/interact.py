@@ -23,6 +23,7 @@ from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.interaction import Timing, interact
+from fetch_pomdp.core.language.names import named, words_besides_name
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import prepare
@@ -80,15 +81,15 @@ def fetch(
     With --audio or --skeleton the person is a recording or a stream. With neither you are the person: type what you
     would say, with @item for an item that you point at.
     """
-    table = loaded(scene, model, live_scene)
+    table = named(loaded(scene, model, live_scene))
     parameters = {
         name: value for name, value in (("depth", depth), ("width", width), ("budget_ms", budget)) if value is not None
     }
-    named = scene if scene in LAYOUTS else None
+    scene_name = scene if scene in LAYOUTS else None
     if target is not None:
         table.index(target, "target")
     header = Header(
-        scene=table, scene_name=named, planner=DEFAULT if planner is None else planner, parameters=parameters,
+        scene=table, scene_name=scene_name, planner=DEFAULT if planner is None else planner, parameters=parameters,
         seed=seed or 0, target=target, person=person, order=order, paradigm=paradigm,
     )  # fmt: skip
     agent = header.agent()
@@ -107,7 +108,7 @@ def fetch(
 def _typed(scene: Scene, console: Console) -> tuple[Recognizer, SkeletonSource]:
     console.print("On the table:")
     for item in scene.items[:20]:
-        console.print(f"  {escape(item.id)}  [dim]{escape(', '.join(item.vocabulary))}[/dim]")
+        console.print(f"  {escape(item.id)}  [dim]{escape(', '.join(words_besides_name(item)))}[/dim]")
     console.print(
         "Say what you want, as to a person. @marker-1 points at it; an empty line is silence; Ctrl-D leaves.\n"
     )
@@ -132,6 +133,7 @@ def _ears(scene: Scene, audio: str | None, rate: int) -> Recognizer | None:
         return None
     from fetch_pomdp.adapters.speech.audio import open_microphone, open_raw, open_wav
     from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
+    from fetch_pomdp.adapters.speech.stream import listened_for
 
     if audio == MICROPHONE:
         sound = open_microphone()
@@ -139,7 +141,7 @@ def _ears(scene: Scene, audio: str | None, rate: int) -> Recognizer | None:
         sound = open_raw(sys.stdin.buffer, rate, "standard input")
     else:
         sound = open_wav(audio)
-    return SphinxRecognizer(sound, scene.words)
+    return SphinxRecognizer(sound, listened_for(scene))
 
 
 def _recorded(events: Iterator[Event], record: EventLog | None) -> Iterator[Event]:

@@ -30,6 +30,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader
 from fetch_pomdp.core.language.meaning import Meaning
+from fetch_pomdp.core.language.names import is_name
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.observation import Observation
@@ -116,6 +117,7 @@ class _Interaction:
         self._agent, self._robot, self._senses = agent, robot, senses
         self._timing, self._pace, self._answers = timing, pace, answers
         self._now, self._silence = pace.time(0.0), 0.0
+        self._lowered = agent.handed is not None  # whether the arm was, since the item was handed over
 
     def events(self, most_steps: int) -> Iterator[Event]:
         if self._timing.before and self._agent.handed is None:
@@ -154,7 +156,7 @@ class _Interaction:
         yield acted
         if isinstance(acted.action, Pick):
             if acted.done:
-                self._silence = 0.0
+                self._silence, self._lowered = 0.0, False
                 return
             self._robot.say(OBJECTED if acted.objected else FAILED)
             self._now = self._pace.time(self._now)
@@ -176,7 +178,7 @@ class _Interaction:
 
     def _listen_on(self) -> Iterator[Event]:
         """Listen after a hand-over until what is said begins something, or for long enough; yield what it began."""
-        handed, silence, lowered = self._agent.handed, 0.0, False
+        handed, silence = self._agent.handed, 0.0
         while silence < self._timing.after and handed is not None:
             observed = self._listened(self._timing.wait, After.STOPPED)
             words, ray = texts(observed.words), observed.observation.ray
@@ -187,12 +189,12 @@ class _Interaction:
                 yield observed
                 return
             asked = Observation(self._answers.read(words, After.NOTHING).words, ray)
-            if split(asked.words, self._agent.problem).base or (ray is not None and lowered):
+            if split(asked.words, self._agent.problem).base or (ray is not None and self._lowered):
                 begun = dataclasses.replace(observed, observation=asked, anew=True)
                 self._agent.take(begun)
                 yield begun
                 return
-            lowered = lowered or ray is None
+            self._lowered = self._lowered or ray is None
             self._reply(dataclasses.replace(observed, observation=asked), waited=False)
 
     def _taken_back(self, item: int) -> Acted:
@@ -224,5 +226,6 @@ class _Interaction:
 
 
 def not_understood(words: Sequence[str]) -> str:
-    """Return what the robot says where it understands nothing. words: those that it knows."""
-    return NOT_UNDERSTOOD + ", ".join(words[:MOST_KNOWN]) + (", ..." if len(words) > MOST_KNOWN else ".")
+    """Return what the robot says where it understands nothing. words: those that it knows; names are seen anyway."""
+    plain = [word for word in words if not is_name(word)]
+    return NOT_UNDERSTOOD + ", ".join(plain[:MOST_KNOWN]) + (", ..." if len(plain) > MOST_KNOWN else ".")

@@ -10,6 +10,7 @@ from typing import Any
 from fetch_pomdp import checks
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.language.names import named
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
 from fetch_pomdp.core.scene import Scene
@@ -19,7 +20,7 @@ from fetch_pomdp.files.models import changed
 
 VERSION = 3
 READ = (1, 2, VERSION)
-FIELDS = ("scene", "model", "rewards", "version", "planner", "seed", "target")
+FIELDS = ("scene", "names", "model", "rewards", "version", "planner", "seed", "target")
 STUDY_FIELDS = ("person", "layout", "paradigm", "order", "begun")  # from version 2 on
 
 
@@ -58,7 +59,10 @@ def header_from_json(data: Mapping[str, Any]) -> Header:
         raise EventError(f"found {shown(version)}, expected one of {', '.join(map(str, READ))}", field="version")
     checks.known(data, FIELDS if version == 1 else FIELDS + STUDY_FIELDS, "field", EventError)
     checks.required(data, ("scene",), EventError)
-    scene = changed(_scene(data["scene"]), data, EventError)
+    scene = _scene(data["scene"])
+    if _names(data.get("names", False)):
+        scene = named(scene)
+    scene = changed(scene, data, EventError)
     planner, parameters = _planner(data.get("planner", DEFAULT))
     target = data.get("target")
     if target is not None:
@@ -107,6 +111,12 @@ def _scene(value: object) -> Scene:
         raise error.within("scene") from None
 
 
+def _names(value: object) -> bool:
+    if not isinstance(value, bool):
+        raise EventError(f"found {shown(value)}, expected true or false", field="names")
+    return value
+
+
 def _planner(value: object) -> tuple[str, dict[str, Any]]:
     fields = {"name": value} if isinstance(value, str) else dict(checks.mapping(value, "planner", EventError))
     name = fields.pop("name", DEFAULT)
@@ -122,6 +132,8 @@ def header_to_json(header: Header) -> dict[str, Any]:
     scene = header.scene
     plain = Scene(items=scene.items, head=scene.head)
     fields: dict[str, Any] = {"scene": header.scene_name or scene.to_mapping(), "version": VERSION}
+    if header.scene_name is not None and scene.items != Scene.load(header.scene_name).items:
+        fields["names"] = True
     for section in ("model", "rewards"):
         values, defaults = dataclasses.asdict(getattr(scene, section)), dataclasses.asdict(getattr(plain, section))
         if changes := {name: value for name, value in values.items() if value != defaults[name]}:

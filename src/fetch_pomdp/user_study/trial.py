@@ -10,10 +10,11 @@ be recorder waiting for a robot that waits for ever.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from fetch_pomdp.adapters.web.conversation import Conversation
+from fetch_pomdp.adapters.web.conversation import TIMING, Conversation
 from fetch_pomdp.adapters.web.ears import Speech
 from fetch_pomdp.adapters.web.journal import Journal
 from fetch_pomdp.adapters.web.page_connection import FAREWELL
@@ -28,10 +29,11 @@ from fetch_pomdp.adapters.web.server_messages import (
     event_message,
     scene_to_json,
     status_message,
+    talk_state,
 )
-from fetch_pomdp.core.action import Point, Wait
+from fetch_pomdp.core.action import Wait
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.events import Acted, Observed
+from fetch_pomdp.core.events import Observed
 from fetch_pomdp.core.live import Decided, Did, Ended, Heard, SensorStatus, Update
 from fetch_pomdp.core.live.session import MODEL
 from fetch_pomdp.core.observation import Observation
@@ -45,6 +47,7 @@ from fetch_pomdp.user_study.recorder import NOTED, TrialRecorder
 from fetch_pomdp.user_study.store.trials import StoredTrial
 
 GIVE_UP = 45.0  # s
+ROUND = dataclasses.replace(TIMING, after=0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +80,8 @@ def participant_view(update: Update, agent: Agent) -> ServerMessage | None:
         return decided_message(update, agent)
     if isinstance(update, Did) and not update.event.done:
         return event_message(update.event, agent)
-    if isinstance(update, Heard) and update.event.words:
-        return {"type": "heard", "t": update.event.time}
+    if isinstance(update, Heard) and update.event.words and not update.event.early:
+        return {"type": "heard", "t": update.event.time, "asked": talk_state(agent)["asked"]}
     if isinstance(update, SensorStatus) and update.name != MODEL:
         return status_message(update)
     return {"type": "ended", "picked": update.picked} if isinstance(update, Ended) else None
@@ -122,7 +125,7 @@ class TrialRunner:
         trial = self._trial
         journal = Journal("", trial.header, list(trial.events), trial, clock=trial.clock or 0.0)
         conversation = Conversation(
-            journal, self._relay, view=participant_view, speech=self._speech, body=AnnouncingRobot
+            journal, self._relay, view=participant_view, speech=self._speech, timing=ROUND, body=AnnouncingRobot
         )
         recorder = TrialRecorder(trial, conversation.clock)
         self._on_conversation(conversation)
@@ -170,17 +173,11 @@ class TrialRunner:
             self._send(message)
 
     def _welcome(self, running: bool) -> ServerMessage:
-        asked = self._asked()
+        agent = self._trial.header.agent()
+        for event in self._trial.events:
+            agent.take(event)
+        asked = talk_state(agent)["asked"]
         ears = self._speech.hearing is not None
         return {"type": "welcome", "scene": scene_to_json(self._trial.header.scene), "asked": asked, "ears": ears} | {
             "insight": False, "belief": None, "past": [], "picked": None, "resumed": running,
         }  # fmt: skip
-
-    def _asked(self) -> str | None:
-        """Return the item of the robot's last question, if nothing was heard since."""
-        for event in reversed(self._trial.events):
-            if isinstance(event, Observed) and event.observation.words:
-                return None
-            if isinstance(event, Acted) and isinstance(event.action, Point):
-                return self._trial.header.scene.items[event.action.item].id
-        return None

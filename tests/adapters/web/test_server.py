@@ -188,7 +188,7 @@ def test_a_request_a_question_an_answer_and_a_hand_over(house: House) -> None:
     page.next("action", action="point", outcome="done")
     page.send({"type": "typed", "text": "yes"})
     assert page.next("say")["text"] == "Here you are."
-    assert page.next("ended")["picked"] == asked["item"]
+    assert page.next("action", action="pick", outcome="done")["item"] == asked["item"]
 
 
 def test_what_is_being_typed_is_shown_and_leaves_no_trace_when_it_is_changed(house: House) -> None:
@@ -290,7 +290,7 @@ def test_what_was_handed_over_is_known_to_who_comes_back_after_it(house: House) 
     page = house.page(planner="never")
     secret = page.next("welcome")["resume"]
     page.send({"type": "typed", "text": "green marker expo pen"})
-    picked = page.next("ended")["picked"]
+    picked = page.next("action", action="pick", outcome="done")["item"]
     assert house.page(resume=secret).next("welcome")["picked"] == picked
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from fetch_pomdp.adapters.speech.audio import RATE, Samples
 from fetch_pomdp.adapters.speech.transcriber import Transcriber
 from fetch_pomdp.adapters.speech.utterances import FRAME, PADDING, Cutter, Detector, Utterance
+from fetch_pomdp.core.language.names import as_spoken
 from fetch_pomdp.core.language.words import STOPS
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.core.scene import Scene
@@ -202,7 +203,7 @@ class StreamingRecognizer:
 
 def listened_for(scene: Scene) -> list[str]:
     """Return the words for the vocabulary of a Transcriber: those of the items, and those that stop a hand-over."""
-    return list(dict.fromkeys([*scene.words, *sorted(STOPS)]))
+    return list(dict.fromkeys([*as_spoken(scene.words), *sorted(STOPS)]))
 
 
 def unmuted(samples: Samples, begin: float, muted: Sequence[tuple[float, float]]) -> list[tuple[Samples, float]]:

@@ -1,4 +1,4 @@
-"""One person and one robot: a live interaction in a thread of its own, written down as it happens.
+"""One person and one robot: live interactions in a thread of its own, written down as they happen.
 
 Choice: nothing is decided before the person has said or shown something, nor after IDLE seconds in which they did not:
 a robot that speaks to an empty room helps nobody, and the time of an interaction begins with the request (Section IV).
@@ -17,7 +17,15 @@ from fetch_pomdp.adapters.web.ears import Ears, Hearing, Speech
 from fetch_pomdp.adapters.web.journal import Journal
 from fetch_pomdp.adapters.web.page_messages import Microphone, PageMessage, Pointed, Typed, Typing, read_page_message
 from fetch_pomdp.adapters.web.robot import ARM, SPEAK, PageRobot
-from fetch_pomdp.adapters.web.server_messages import BROKEN, Send, View, error_message, say_message, status_message
+from fetch_pomdp.adapters.web.server_messages import (
+    BROKEN,
+    Send,
+    View,
+    aloud,
+    error_message,
+    say_message,
+    status_message,
+)
 from fetch_pomdp.core.events import Event
 from fetch_pomdp.core.interaction import Timing
 from fetch_pomdp.core.live import LIVE, Did, Ended, Heard, Inbox, LiveRobot, LiveSession, RealClock, Update
@@ -29,14 +37,16 @@ logger = logging.getLogger(__name__)
 
 IDLE = 30.0  # s
 TIMING: Timing = dataclasses.replace(
-    LIVE, question=ARM + SPEAK + LIVE.wait, overlap=SPEAK, silence=8.0, before=LIVE.wait
+    LIVE, question=ARM + SPEAK + LIVE.wait, overlap=SPEAK, silence=8.0, before=LIVE.wait, after=IDLE
 )
 
 
 class Conversation:
     """A PageSession: an interaction that rests while its person is silent.
 
-    body: makes the robot, given the function that says a sentence.
+    timing: without time `after` a hand-over that ends it; otherwise the robot rests then, and goes on with what is said
+    or shown next, whether it gives the item back or asks for another. body: makes the robot, given the function that
+    says a sentence.
     """
 
     def __init__(
@@ -46,9 +56,11 @@ class Conversation:
         *,
         view: View,
         speech: Speech,
+        timing: Timing = TIMING,
         body: Callable[[Callable[[str], None]], LiveRobot] = PageRobot,
     ) -> None:
         self._journal, self._send, self._view, self._voice = journal, send, view, speech.voice
+        self._timing = timing
         self.clock = RealClock(journal.time)
         self._agent = journal.agent()
         self._robot = body(self._say)
@@ -141,8 +153,8 @@ class Conversation:
         return Ears(hearing, words, self._inbox, self.clock.now, lambda status: self._send(status_message(status)))
 
     def _rest(self) -> LiveSession:
-        listen, clock = self._listen, self.clock
-        return LiveSession(self._agent, self._robot, self._inbox, listener=listen, clock=clock, timing=TIMING)
+        listen, clock, timing = self._listen, self.clock, self._timing
+        return LiveSession(self._agent, self._robot, self._inbox, listener=listen, clock=clock, timing=timing)
 
     def _wake(self) -> None:
         """Begin with the first word or gesture: a noise that is no word, or a text that is deleted, begins nothing."""
@@ -153,7 +165,7 @@ class Conversation:
     def _run(self) -> None:
         try:
             self._prepare()
-            while self._journal.picked is None and not self._over.is_set():
+            while not (self._over.is_set() or self._served):
                 self._came.wait()
                 self._session.run()
                 self._session = self._rest()
@@ -168,6 +180,11 @@ class Conversation:
         self._journal.close()
         self._ended()
 
+    @property
+    def _served(self) -> bool:
+        """Whether a hand-over has ended it."""
+        return not self._timing.after and self._journal.picked is not None
+
     def _prepare(self) -> None:
         self._send({"type": "status", "sensor": "planner", "state": "slow", "text": "The robot is getting ready."})
         prepare(self._agent.planner, self._agent.problem)
@@ -175,12 +192,12 @@ class Conversation:
 
     def _say(self, sentence: str) -> None:
         if self._voice is not None and self._ears is not None:
-            self._ears.mute(self._voice.seconds(sentence))
+            self._ears.mute(self._voice.seconds(aloud(sentence)))
         self._send(say_message(sentence, audible=self._voice is not None))
 
     def _listen(self, update: Update) -> None:
         """Write down what has happened, then send it: what a page has seen is never lost."""
-        if self._over.is_set() or (isinstance(update, Ended) and update.picked is None):
+        if self._over.is_set() or (isinstance(update, Ended) and not self._served):
             return
         if isinstance(update, Did | Heard) and not self._written(update.event):
             return

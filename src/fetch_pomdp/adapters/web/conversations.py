@@ -6,6 +6,7 @@ from pathlib import Path
 
 from fetch_pomdp.adapters.web.conversation import Conversation
 from fetch_pomdp.adapters.web.ears import Speech
+from fetch_pomdp.adapters.web.examples import examples
 from fetch_pomdp.adapters.web.journal import Journal, Journals, name_of
 from fetch_pomdp.adapters.web.page_messages import VERSION, Hello, header_of
 from fetch_pomdp.adapters.web.server_messages import (
@@ -14,9 +15,11 @@ from fetch_pomdp.adapters.web.server_messages import (
     belief_by_id,
     event_message,
     scene_to_json,
+    talk_state,
     with_insight,
     without_insight,
 )
+from fetch_pomdp.core.language.names import named
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import prepare
@@ -50,7 +53,7 @@ class ConversationOpener:
     def warm_up(self) -> None:
         """Compile the planner and solve the built-in tables before the first page comes."""
         for name in LAYOUTS:
-            prepare(planner_named(DEFAULT), Problem(live_scene(name)))
+            prepare(planner_named(DEFAULT), Problem(named(live_scene(name))))
 
     def _conversation(self, journal: Journal, send: Send, *, resumed: bool) -> Conversation:
         send(self._welcome(journal, resumed=resumed))
@@ -61,6 +64,7 @@ class ConversationOpener:
         agent = journal.agent()
         past = (event_message(event, agent) for event in journal.events)
         belief = belief_by_id(agent.belief, agent.scene) if self._insight else None
+        state = talk_state(agent)
         return {
             "type": "welcome",
             "version": VERSION,
@@ -75,4 +79,5 @@ class ConversationOpener:
             "belief": belief,
             "past": [message for message in past if message is not None],
             "picked": journal.picked,
-        }
+            "examples": examples(agent.scene),
+        } | {**state, "begun": bool(journal.events) and state["begun"]}

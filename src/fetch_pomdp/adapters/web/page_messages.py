@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 from fetch_pomdp import checks
 from fetch_pomdp.checks import Point3, shown
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language.names import named
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.live.person import live_scene, live_scene_from
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS
@@ -135,7 +136,7 @@ def _scene(value: object) -> tuple[Scene, str | None]:
     if isinstance(value, str):
         if value not in LAYOUTS:
             raise MessageError(f"found {shown(value)}, expected one of {', '.join(LAYOUTS)}", field="scene")
-        return live_scene(value), value
+        return named(live_scene(value)), value
     data = checks.mapping(value, "scene", MessageError)
     checks.known(data, ("toml",), "field", MessageError)
     checks.required(data, ("toml",), MessageError)
@@ -143,7 +144,7 @@ def _scene(value: object) -> tuple[Scene, str | None]:
     scene = parse_toml(text, "table", SceneError).build(live_scene_from)
     if len(scene.items) > MOST_ITEMS:
         raise SceneError(f"found {len(scene.items)}, expected at most {MOST_ITEMS}", field="items", source="table")
-    return scene, None
+    return named(scene), None
 
 
 def scene_asked_for(name_or_path: str) -> str | dict[str, str]:

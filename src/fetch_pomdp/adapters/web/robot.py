@@ -6,11 +6,13 @@ import threading
 from collections.abc import Callable
 
 from fetch_pomdp.adapters.web.server_messages import ASKS, HANDS_OVER
+from fetch_pomdp.core.interaction import ASKING_AGAIN
 from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.core.scene import Item
 
 ARM = 1.0  # s, from rest to pointing at an item
 SPEAK = 0.8  # s, "this one?"
+SPEAK_AGAIN = 3.4  # s, the longer question
 GRASP = 1.2  # s, from rest to holding an item
 CARRY = 1.6  # s, from there to the person
 
@@ -20,12 +22,14 @@ class PageRobot:
 
     def __init__(self, say: Callable[[str], None]) -> None:
         self._say = say
+        self._asks_again = False  # whether the next question is asked in other words
         self._stopped = threading.Event()
 
     def point(self, item: Item) -> Outcome:  # noqa: ARG002
-        """Point at an item, then ask."""
+        """Point at an item, then ask; in other words if `say` was given them."""
         self._stopped.clear()
-        return self._then(ARM, ASKS, SPEAK)
+        again, self._asks_again = self._asks_again, False
+        return self._then(ARM, ASKING_AGAIN, SPEAK_AGAIN) if again else self._then(ARM, ASKS, SPEAK)
 
     def pick(self, item: Item) -> Outcome:  # noqa: ARG002
         """Take an item to the person, and say so when it is theirs."""
@@ -38,8 +42,11 @@ class PageRobot:
         return Outcome.STOPPED if self._stopped.wait(CARRY + GRASP) else Outcome.DONE
 
     def say(self, text: str) -> Outcome:
-        """Say something; the robot listens meanwhile."""
-        self._say(text)
+        """Say something; the robot listens meanwhile. A question is said when the arm shows what it is about."""
+        if text == ASKING_AGAIN:
+            self._asks_again = True
+        else:
+            self._say(text)
         return Outcome.DONE
 
     def stop(self) -> None:

@@ -10,7 +10,8 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.explain import even
-from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED
+from fetch_pomdp.core.interaction import ASKING_AGAIN, CANCELLED, FAILED, LISTENING, NOT_UNDERSTOOD, OBJECTED
+from fetch_pomdp.core.language.names import words_besides_name
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
@@ -26,13 +27,16 @@ View: TypeAlias = Callable[[Update, Agent], ServerMessage | None]  # what a page
 
 ASKS, HANDS_OVER = "This one?", "Here you are."
 BROKEN = "broken"  # code of an error: the session has ended, and its page is disconnected
-# All that the robot says; the page has these sentences in its languages, the server as sound.
+# All that the robot says aloud; the page has these sentences in its languages, the server as sound.
 SENTENCES = {
     "asks": ASKS,
     "hands_over": HANDS_OVER,
     "listening": LISTENING,
     "failed": FAILED,
     "objected": OBJECTED,
+    "cancelled": CANCELLED,
+    "asking_again": ASKING_AGAIN,
+    "not_understood": NOT_UNDERSTOOD.partition(" I know")[0],
 }
 _KEYS = {sentence: key for key, sentence in SENTENCES.items()}
 
@@ -40,14 +44,22 @@ _KEYS = {sentence: key for key, sentence in SENTENCES.items()}
 def scene_to_json(scene: Scene) -> ServerMessage:
     """Return the table as a page draws it: items, head, and the noise of pointing (rad)."""
     fields = scene.to_mapping()
+    for item, shown in zip(scene.items, fields["items"], strict=True):
+        shown["vocabulary"] = list(words_besides_name(item))
     return {**fields, "sigma": scene.model.sigma, "threshold": scene.model.gesture_threshold}
 
 
+def aloud(sentence: str) -> str:
+    """Return what is said aloud of a sentence of the robot: of words that vary nothing, for they are to be read."""
+    return SENTENCES["not_understood"] if sentence.startswith(NOT_UNDERSTOOD) else sentence
+
+
 def say_message(sentence: str, *, audible: bool) -> ServerMessage:
-    """Return a sentence of the robot, with the address of its sound if there is one."""
-    key = _KEYS.get(sentence)
+    """Return a sentence of the robot, with the address of its sound if there is one, and the words that it knows."""
+    key = _KEYS.get(aloud(sentence))
     audio = f"voice/{key}.wav" if audible and key is not None else None
-    return {"type": "say", "key": key, "text": sentence, "audio": audio}
+    fields: ServerMessage = {"type": "say", "key": key, "text": sentence, "audio": audio}
+    return fields | ({"words": sentence.removeprefix(NOT_UNDERSTOOD)} if key == "not_understood" else {})
 
 
 def belief_by_id(belief: Vector, scene: Scene) -> dict[str, float]:
@@ -76,6 +88,13 @@ def without_insight(update: Update, agent: Agent) -> ServerMessage | None:
     return _outward(update, agent)
 
 
+def talk_state(agent: Agent) -> ServerMessage:
+    """Return where the talk stands: the item of a question that waits for its answer, and whether a request goes on."""
+    open_question = None if agent.handed is not None else agent.evidence.unanswered
+    begun = agent.handed is None and bool(agent.problem.tables.begun[agent.phase])
+    return {"asked": None if open_question is None else agent.scene.items[open_question].id, "begun": begun}
+
+
 def decided_message(update: Decided, agent: Agent) -> ServerMessage:
     """Return the action that begins, without its reasons."""
     return {"type": "decided", "t": update.time, **action_to_json(update.decision.action, agent.scene)}
@@ -87,7 +106,8 @@ def _changed(update: BeliefChanged) -> ServerMessage:
 
 def _outward(update: Did | Heard | SensorStatus | Ended, agent: Agent) -> ServerMessage | None:
     if isinstance(update, Did | Heard):
-        return event_message(update.event, agent)
+        message = event_message(update.event, agent)
+        return None if message is None else message | talk_state(agent)
     if isinstance(update, SensorStatus):
         return status_message(update)
     return {"type": "ended", "picked": update.picked}

@@ -25,6 +25,7 @@ from typing import Protocol
 
 from fetch_pomdp.core.language import english, german
 from fetch_pomdp.core.language.meaning import MEANINGS, STAND_INS, Meaning
+from fetch_pomdp.core.language.names import with_names
 from fetch_pomdp.core.language.phrases import Answers, Entry, Phrases, When, plain, spellings
 from fetch_pomdp.core.language.words import NEGATIVE, RESPONSES, STOPS
 
@@ -105,7 +106,7 @@ class _Found:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lexicon:
-    """The AnswerReader of people: phrases in English and German, and those of a scene.
+    """The AnswerReader of people: phrases in English and German, those of a scene, and its items' names (`names`).
 
     owned: the words of the scene's items.
     """
@@ -115,6 +116,7 @@ class Lexicon:
 
     def read(self, words: Sequence[str], after: After) -> Reading:
         """Return the words of an observation, and what was meant."""
+        words = with_names(words, self.owned)
         found = self._found(words, after)
         if after is After.STOPPED:
             found = [_Found(each.start, each.end, _denied(each.meaning)) for each in found]

@@ -95,6 +95,8 @@ class Display:
                 self._lock.release()
 
     def _look(self, time: float) -> None:
+        if self._agent.handed is not None:  # whether this takes something back or begins anew, the step's end tells
+            return
         pending = self._inbox.pending()
         words = self._taken + pending.words + (pending.partial or ())
         ray = median_ray(pending.frames, self._agent.problem)

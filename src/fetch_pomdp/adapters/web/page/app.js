@@ -4,6 +4,7 @@ import { ArmPointing } from "./arm-pointing.js";
 import { Connection } from "./connection.js";
 import { find, findAll } from "./dom.js";
 import { Editor } from "./editor.js";
+import { Examples } from "./examples.js";
 import { Interaction } from "./interaction.js";
 import { Labels } from "./labels.js";
 import { Menu } from "./menu.js";
@@ -68,6 +69,7 @@ class App {
     },
     choose: (language) => this.#choose(language),
   });
+  #examples = new Examples(find("#examples"), (words) => this.#say(words));
   #interaction = new Interaction({
     view: this.#view,
     labels: this.#labels,
@@ -75,6 +77,7 @@ class App {
     log: new EventLog(),
     voice: this.#voice,
     editor: this.#editor,
+    examples: this.#examples,
     showState,
     onWelcome: (message) => this.#welcome(message),
     inStudy: () => this.#study.on,
@@ -130,6 +133,7 @@ class App {
     showState(text(this.#state));
     this.#arm.translate();
     this.#interaction.translate();
+    this.#examples.translate();
     this.#study.translate();
   }
 
@@ -157,7 +161,6 @@ class App {
     for (const answer of findAll("[data-say]", HTMLElement))
       answer.addEventListener("click", () => {
         this.#say(answer.dataset.say ?? "");
-        find("#answers").hidden = true;
         input.focus();
       });
     find("#stop").addEventListener("click", () => this.#say("stop"));

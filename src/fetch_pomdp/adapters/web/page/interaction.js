@@ -1,11 +1,13 @@
 // What the server tells of an interaction, shown: on the table, at the items, in the panels and in words.
 
 import { find } from "./dom.js";
+import { isQuestion } from "./robot-voice.js";
 import { text } from "./texts.js";
 
 /** @import { Acted, Belief, BeliefMessage, Decided, Ended, ErrorMessage, Observed } from "./messages.js" */
 /** @import { Say, Scene, ServerMessage, Status, Welcome } from "./messages.js" */
 /** @import { Editor } from "./editor.js" */
+/** @import { Examples } from "./examples.js" */
 /** @import { Labels } from "./labels.js" */
 /** @import { DecisionPanel, EventLog } from "./panels.js" */
 /** @import { RobotVoice } from "./robot-voice.js" */
@@ -18,6 +20,7 @@ import { text } from "./texts.js";
  * @property {EventLog} log
  * @property {RobotVoice} voice
  * @property {Editor} editor
+ * @property {Examples} examples
  * @property {(line: string) => void} showState
  * @property {(message: Welcome) => void} onWelcome called when everything knows the table
  * @property {() => boolean} inStudy
@@ -29,6 +32,12 @@ export class Interaction {
   insight = false;
   /** @type {Belief | null} */
   #belief = null;
+  /** @type {string | null} */
+  #asked = null; // the item of a question that waits for its answer
+  /** @type {string | null} */
+  #picked = null; // what the person was handed over, and has not given back
+  /** @type {string | null} */
+  #about = null; // the item that the last action is about
 
   /** @param {Parts} parts */
   constructor(parts) {
@@ -46,6 +55,8 @@ export class Interaction {
         return this.#decide(message);
       case "observed":
         return this.#observe(message);
+      case "heard":
+        return this.#answer(message.asked);
       case "action":
         return this.#act(message);
       case "say":
@@ -67,16 +78,17 @@ export class Interaction {
     this.parts.editor.load(this.scene);
     this.parts.view?.draw();
     this.parts.panel.translate();
+    if (this.#picked) find("#outcome").textContent = text("got", { item: this.#picked });
   }
 
   /** @param {Welcome} message */
   #begin(message) {
-    const { view, labels, panel, log, voice, editor, onWelcome, inStudy } = this.parts,
+    const { view, labels, panel, log, voice, editor, examples, onWelcome, inStudy } = this.parts,
       { scene, insight } = message;
     this.scene = scene;
     this.insight = insight;
-    find("#end").hidden = true;
-    find("#answers").hidden = true;
+    this.#give(null);
+    this.#settle();
     labels.set(scene, insight);
     panel.set(scene);
     log.clear();
@@ -85,9 +97,35 @@ export class Interaction {
     onWelcome(message);
     message.past.forEach((event) => log.add(event));
     if (message.belief) this.#believe(message.belief, false);
-    if (message.picked !== null) this.#end({ picked: message.picked });
-    else if (message.resumed) this.parts.showState(text("resumed"));
-    else if (!inStudy()) voice.show("greeting", 6000);
+    examples.set(message.examples ?? [], !message.begun);
+    if (message.resumed && message.picked === null) this.parts.showState(text("resumed"));
+    if (message.picked !== null) {
+      view?.robot.fetch(message.picked);
+      labels.about(message.picked);
+      this.#give(message.picked);
+    } else if (message.asked) this.#resumeQuestion(message.asked);
+    else if (!message.resumed && !inStudy()) voice.show("greeting", 6000);
+  }
+
+  /** Ask again as it was asked before the page was reloaded. @param {string} item */
+  #resumeQuestion(item) {
+    const { view, labels, voice } = this.parts;
+    view?.robot.ask(item);
+    labels.about(item);
+    voice.show("asks", null);
+    this.#await(item);
+  }
+
+  /** Let the person answer a question. @param {string} item */
+  #await(item) {
+    this.#asked = item;
+    find("#answers").hidden = false;
+  }
+
+  /** No question waits for an answer any more. */
+  #settle() {
+    this.#asked = null;
+    find("#answers").hidden = true;
   }
 
   /** @param {Belief} belief @param {boolean} provisional */
@@ -109,42 +147,64 @@ export class Interaction {
     const { action, item } = message,
       { panel, labels, view } = this.parts;
     panel.decide(message);
-    if (action !== "wait" || find("#answers").hidden) labels.about(item ?? null); // a question stays marked
+    if (action === "wait" && this.#asked) return; // a question stays as it is
+    labels.about(item ?? null);
     if (action === "point" && item) view?.robot.ask(item);
     if (action === "pick" && item) view?.robot.fetch(item);
-    if (action !== "wait") find("#answers").hidden = true;
+    if (item !== this.#asked) this.#settle();
+    this.#about = item ?? null;
   }
 
   /** @param {Observed} message */
   #observe(message) {
     this.parts.log.add(message);
-    if (!message.observation.utterance) return;
-    if (!message.understood) this.parts.voice.show("not_understood", 4000);
-    else if (!find("#answers").hidden) this.parts.voice.hide();
-    find("#answers").hidden = true;
+    if (message.anew) {
+      this.#give(null);
+      this.parts.labels.about(null);
+    }
+    this.parts.examples.show(!message.begun);
+    if (!message.early && (message.anew || message.observation.utterance)) this.#answer(message.asked ?? null);
+  }
+
+  /** Something was said: the robot rests its arm, unless its question still waits. @param {string | null} asked */
+  #answer(asked) {
+    if (asked) return;
+    if (this.#asked) this.parts.voice.hide();
+    this.#settle();
     this.parts.view?.robot.rest();
   }
 
   /** @param {Acted} message */
   #act(message) {
+    const { outcome, action, item } = message;
     this.parts.log.add(message);
-    if (message.outcome !== "done") this.parts.view?.robot.rest();
+    if (outcome !== "done") this.parts.view?.robot.rest();
+    if (outcome === "returned") this.#give(null);
+    if (action !== "pick" || outcome !== "done") return;
+    this.#give(item);
+    this.parts.examples.show(true);
   }
 
   /** @param {Say} message */
   #say(message) {
     this.parts.voice.say(message);
-    if (message.key === "asks") find("#answers").hidden = false; // an answer given before is none to this question
+    if (isQuestion(message) && this.#about) this.#await(this.#about); // an answer given before is none to this question
+    if (message.key === "objected") this.parts.view?.robot.putBack();
   }
 
-  /** @param {Pick<Ended, "picked">} message */
+  /** The round of a study is over. @param {Ended} message */
   #end({ picked }) {
-    find("#answers").hidden = true;
+    this.#settle();
     this.parts.labels.about(picked);
-    if (picked === null) return;
-    const line = text("got", { item: picked });
+  }
+
+  /** The person has an item; null: they have none any more. @param {string | null} item */
+  #give(item) {
+    this.#picked = item;
+    find("#end").hidden = item === null;
+    if (item === null) return;
+    const line = text("got", { item });
     find("#outcome").textContent = line;
-    find("#end").hidden = false;
     this.parts.voice.announce(line);
   }
 

@@ -32,10 +32,12 @@ export interface Welcome {
   belief: Belief | null;
   past: (Observed | Acted)[];
   picked: string | null;
+  asked: string | null; // the item of a question that waits for its answer
   resume?: string;
   scene_name?: string | null;
-  planner?: string; // of an interaction
-  asked?: string | null; // of a round
+  planner?: string; // of a conversation, like those below
+  begun?: boolean; // whether a request goes on
+  examples?: string[];
 }
 export interface BeliefMessage {
   type: "belief";
@@ -53,25 +55,33 @@ export interface Decided {
   phrase?: Phrase | null;
   values?: { wait: number | null; point: Record<string, number | null>; pick: Record<string, number | null> };
 }
-export interface Observed {
+/** Where the talk stands after an event that has just happened. */
+interface TalkState {
+  asked?: string | null;
+  begun?: boolean;
+}
+export interface Observed extends TalkState {
   type: "observed";
   t?: number;
+  early?: boolean; // heard while the next action went on
+  anew?: boolean; // begins another request
   unknown: string[];
   understood: boolean;
   observation: { utterance?: string; head?: Point3; wrist?: Point3 };
 }
-export interface Acted {
+export interface Acted extends TalkState {
   type: "action";
   t?: number;
   action: ActionName;
   item: string;
-  outcome: "done" | "failed" | "stopped";
+  outcome: "done" | "failed" | "stopped" | "returned";
 }
 export interface Say {
   type: "say";
   key: string | null;
   text: string;
   audio: string | null;
+  words?: string; // those that the robot knows, if it has not understood anything
 }
 export interface Status {
   type: "status";
@@ -102,6 +112,7 @@ export interface Begin {
 export interface Heard {
   type: "heard";
   t: number;
+  asked: string | null;
 }
 export interface Question {
   id: string;

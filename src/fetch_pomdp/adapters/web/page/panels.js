@@ -110,8 +110,9 @@ export function leaders(belief) {
 }
 
 /** @param {Observed} event */
-function perceived({ observation, unknown }) {
+function perceived({ observation, unknown, anew }) {
   const parts = [];
+  if (anew) parts.push(text("anew"));
   if (observation.utterance) parts.push(text("heard", { words: observation.utterance }));
   if (observation.head) parts.push(text("pointed"));
   if (unknown.length) parts.push(text("unknown", { words: unknown.join(", ") }));
@@ -120,6 +121,7 @@ function perceived({ observation, unknown }) {
 
 /** @param {Acted} event */
 function acted({ action, item, outcome }) {
+  if (outcome === "returned") return text("returned", { item });
   const line = text(action === "point" ? "asked" : "handed", { item });
   if (outcome === "done") return line;
   return text(outcome === "stopped" ? "stopped" : "not_done", { action: line });

@@ -9,8 +9,8 @@ import { outline, vector } from "./geometry.js";
 /** @import { Robot } from "./robot.js" */
 /** @typedef {Robot["arms"][0]} Arm */
 /**
- * @typedef {{ object: Object3D, arm: Arm, home: Vector3, below: number }} Held what is in the hand; below: m under
- *   the wrist
+ * @typedef {{ object: Object3D, arm: Arm, home: Vector3, below: number, back: (() => void)[] }} Held what is in the
+ *   hand; below: m under the wrist; back: the movements that put it back
  */
 /** @typedef {{ scene: Scene, frame: Frame, meshes: Map<string, Object3D> }} Table meshes: by item */
 
@@ -93,7 +93,7 @@ export class RobotMotion {
     this.#then(0.75, () => to(down));
     this.#then(1.2, () => {
       arm.grip = 0.35;
-      this.#held = { object, arm, home, below: down.z - home.z };
+      this.#held = { object, arm, home, below: down.z - home.z, back: [() => to(over), () => to(down)] };
     });
     this.#then(1.25, () => to(over.clone().setZ(over.z + 0.1)));
     const near = Math.max(arm.reach * 0.93, 0.3);
@@ -102,6 +102,16 @@ export class RobotMotion {
       arm.aim = arm.target.clone().add(new THREE.Vector3(0, -0.4, -1));
       this.robot.gaze.copy(this.#person);
     });
+  }
+
+  /** Put what is in the hand back where it was. */
+  putBack() {
+    const [over, down] = this.#held?.back ?? [];
+    if (!over) return this.rest();
+    this.#steps = [];
+    this.#then(0, over);
+    this.#then(0.9, down);
+    this.#then(1.5, () => this.rest());
   }
 
   /** Let go of everything, also of what is in the hand. */

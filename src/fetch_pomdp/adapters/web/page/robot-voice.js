@@ -8,11 +8,17 @@ import { english, isEnglish, text } from "./texts.js";
 
 const MARGIN = 8; // pixels, of the bubble to the sides of the picture
 const TOP = 76; // pixels, of the bubble to the top
+const SHOWN = 3500; // ms that a sentence is shown
+const READ = 9000; // ms that one with words to be read is shown
+
+/** Whether a sentence asks something that waits for an answer. @param {Say} message */
+export const isQuestion = ({ key }) => key === "asks" || key === "asking_again";
 
 export class RobotVoice {
   #bubble = find("#bubble");
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
+  #sound = new Audio();
 
   /** @param {TableView | null} view */
   constructor(view) {
@@ -23,10 +29,11 @@ export class RobotVoice {
    * Show one of the page's texts in a bubble, in English and, beneath it, in the page's language.
    * @param {string} key
    * @param {number | null} duration ms; null: until something else is shown or the question is answered
+   * @param {Record<string, string>} values
    */
-  show(key, duration) {
-    const translated = isEnglish() ? [] : [create("small", { textContent: text(key) })];
-    this.#showLine(english(key), duration, translated);
+  show(key, duration, values = {}) {
+    const translated = isEnglish() ? [] : [create("small", { textContent: text(key, values) })];
+    this.#showLine(english(key, values), duration, translated);
   }
 
   /** @param {string} line @param {number | null} duration @param {HTMLElement[]} translated */
@@ -49,15 +56,21 @@ export class RobotVoice {
     find("#spoken").textContent = line;
   }
 
-  /** Say something: the server's sound if there is one, else the browser's voice. @param {Say} message */
-  say({ key, text: line, audio }) {
-    const duration = key === "asks" ? null : 3500;
-    if (key) this.show(key, duration);
+  /**
+   * Say something, and nothing else any more: the server's sound if there is one, else the browser's voice.
+   * @param {Say} message
+   */
+  say(message) {
+    const { key, text: line, audio, words } = message;
+    const duration = isQuestion(message) ? null : words ? READ : SHOWN;
+    if (key) this.show(key, duration, words ? { words } : {});
     else this.#showLine(line, duration);
+    this.#sound.pause();
     if (!find("#voice", HTMLInputElement).checked) return;
-    if (audio)
-      new Audio(audio).play().catch(() => {}); // before the first click a browser may forbid sound
-    else if (window.speechSynthesis) {
+    if (audio) {
+      this.#sound = new Audio(audio);
+      this.#sound.play().catch(() => {}); // before the first click a browser may forbid sound
+    } else if (window.speechSynthesis) {
       const spoken = new SpeechSynthesisUtterance(line);
       spoken.lang = "en";
       speechSynthesis.cancel();

@@ -1,6 +1,7 @@
 // A study: from consent to completion code, and each trial from the ring around an item to what the robot brought.
 
 import { find } from "./dom.js";
+import { isQuestion } from "./robot-voice.js";
 import { StudyPages } from "./study-pages.js";
 import { inLanguage, text } from "./texts.js";
 import { canWithdraw, isTrial, Trial } from "./trial.js";
@@ -104,12 +105,10 @@ export class Study {
         return this.#countDown(trial, message);
       case "begin":
         return this.#begin(trial, message);
-      case "heard":
-        return this.#heard();
       case "decided":
         return trial.decide(message);
       case "say":
-        return message.key === "asks" ? this.page.voice.announce(trial.question) : undefined;
+        return isQuestion(message) ? this.page.voice.announce(trial.question) : undefined;
       case "ended":
         return this.#end(trial, message);
     }
@@ -126,10 +125,6 @@ export class Study {
     find("#task-title").focus();
     if (!asked) return;
     trial.about = asked;
-    this.page.view?.robot.ask(asked);
-    find("#answers").hidden = false;
-    this.page.voice.show("asks", null);
-    this.page.labels.about(asked);
     this.page.voice.announce(trial.question);
   }
 
@@ -154,12 +149,6 @@ export class Study {
       find("#say").focus();
   }
 
-  #heard() {
-    if (!find("#answers").hidden) this.page.voice.hide();
-    find("#answers").hidden = true;
-    this.page.view?.robot.rest();
-  }
-
   /** @param {Trial} trial @param {Ended} message */
   #end(trial, { picked }) {
     trial.end();
@@ -176,7 +165,6 @@ export class Study {
   /** @param {boolean} now @param {string} note */
   #letTalk(now, note) {
     for (const control of find("#talk", HTMLFormElement).elements) control.toggleAttribute("disabled", !now);
-    if (!now) find("#answers").hidden = true;
     find("#say", HTMLInputElement).placeholder = text(note);
   }
 

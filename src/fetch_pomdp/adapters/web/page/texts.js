@@ -29,18 +29,19 @@ export function currentLanguage() {
   return language;
 }
 
-/**
- * The text of a key, with values for what it has in braces.
- * @param {string} key
- * @param {Record<string, string | number>} values
- */
+/** @typedef {Record<string, string | number>} Values for what a text has in braces */
+
+/** The text of a key. @param {string} key @param {Values} values */
 export function text(key, values = {}) {
-  return all[language][key].replace(/\{(\w+)\}/g, (_, name) => String(values[name]));
+  return filledIn(all[language][key], values);
 }
 
-/** @param {string} key */
-export function english(key) {
-  return all.en[key];
+/** @param {string} line @param {Values} values */
+const filledIn = (line, values) => line.replace(/\{(\w+)\}/g, (_, name) => String(values[name]));
+
+/** The text of a key in English, whatever the page's language. @param {string} key @param {Values} values */
+export function english(key, values = {}) {
+  return filledIn(all.en[key], values);
 }
 
 export function isEnglish() {
