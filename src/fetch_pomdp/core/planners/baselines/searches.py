@@ -27,7 +27,7 @@ from fetch_pomdp.core.planners.search.leaf import last_action
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, default_width, searched
 from fetch_pomdp.core.planners.search.tree import Search
 from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.turns import DESIRED
+from fetch_pomdp.core.turns import DESIRED, OTHER
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +128,6 @@ class DoshiRoy:
         checked_asked(belief.probabilities, asked, problem)
         # Nothing was asked before, and no answer comes after a wait.
         chances = problem.tables.chances.copy()
-        chances[:, WAITED, DESIRED:] = 0.0
+        chances[:, WAITED, [DESIRED, OTHER]] = 0.0
         tables = problem.tables._replace(p_again=0.0, chances=chances)
         return searched(problem, belief, None, search, rng=rng, phase=phase, tables=tables)
