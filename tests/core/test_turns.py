@@ -43,7 +43,7 @@ def numbered(**counts: int) -> Turns:
     """Turns in which no two chances are the same."""
     numbers = itertools.count(1)
     chances = {name: tuple(next(numbers) / 60 for _ in getattr(Turns(), name)) for name in LISTS}
-    return Turns(**counts, held=(1.5, 2.5)).with_changes(chances)
+    return Turns().with_changes({**counts, **chances, "held": (1.5, 2.5)})
 
 
 def person_of(turns: Turns) -> Person:
@@ -173,7 +173,7 @@ COUNTED = [
 @pytest.mark.parametrize("counts", COUNTED)
 def test_phases_are_those_of_the_oracle(counts: dict[str, int]) -> None:
     person = Person({}, **counts)
-    talks, found = all_talks(person), phases_of(Turns(**counts)).following
+    talks, found = all_talks(person), phases_of(Turns().with_changes(counts)).following
     numbers = {talk: number for number, talk in enumerate(talks)}
     assert found.shape == (len(talks), 2, 2, 2, 5)
     assert len(numbers) == len(talks)
