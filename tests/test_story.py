@@ -65,6 +65,9 @@ class Person:
     def pick(self, item: Item) -> Outcome:
         return Outcome.DONE
 
+    def take_back(self, item: Item) -> Outcome:
+        return Outcome.DONE
+
     def say(self, text: str) -> Outcome:
         return Outcome.DONE
 

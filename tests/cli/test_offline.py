@@ -71,6 +71,28 @@ def test_decide_refuses_an_interaction_that_is_over(run: Run, tmp_path: Path) ->
     assert "found a pick that was done" in err
 
 
+def test_a_second_request_is_filtered_and_decided_anew(run: Run, tmp_path: Path) -> None:
+    """After a return and another hand-over: as if nothing had been before the request that began anew."""
+    returned = {"action": "pick", "item": "marker-2", "outcome": "returned"}
+    before = [
+        *ASKED, {"action": "pick", "item": "marker-2"}, returned, {"observation": {"utterance": "no"}},
+        {"action": "pick", "item": "marker-1"},
+    ]  # fmt: skip
+    request = {"observation": {"utterance": "spoon"}}
+    path = events(tmp_path / "both.jsonl", *before, {**request, "anew": True})
+    alone = events(tmp_path / "alone.jsonl", ASKED[0], request)
+    code, out, _ = run("filter", path, "--json")
+    beliefs = [json.loads(line) for line in out.splitlines()]
+    assert code == 0
+    # Two noes, each 99 times as likely for another item than the one asked about: the other items share the rest.
+    assert beliefs[2]["belief"]["marker-2"] == pytest.approx(6 * 99 / (2 * 6 * 99 + 4 * 99**2))
+    assert beliefs[2]["asked"] == "marker-2"
+    assert beliefs[3] == json.loads(run("filter", alone, "--json")[1])
+    assert beliefs[3]["asked"] is None
+    threshold = ("--planner", "threshold")
+    assert run("decide", path, *threshold)[1] == run("decide", alone, *threshold)[1]
+
+
 def test_a_failed_pick_can_be_followed_by_an_observation(run: Run, tmp_path: Path) -> None:
     failed = {"action": "pick", "item": "marker-2", "outcome": "failed"}
     path = events(tmp_path / "e.jsonl", *ASKED, failed, {"observation": {"utterance": "marker"}})
@@ -102,7 +124,7 @@ BAD_EVENTS: dict[str, tuple[int, list[object]]] = {
     "no items": (1, [{"scene": {"head": [0, 0, 1], "items": []}}]),
     "unknown target": (1, [{"scene": "ambiguous", "target": "cup"}]),
     "unknown planner": (1, [{"scene": "ambiguous", "planner": "best"}]),
-    "future version": (1, [{"scene": "ambiguous", "version": 3}]),
+    "future version": (1, [{"scene": "ambiguous", "version": 4}]),
     "unknown action": (2, [{"scene": "ambiguous"}, {"action": "grab"}]),
     "unknown item": (2, [{"scene": "ambiguous"}, {"action": "pick", "item": "cup"}]),
     "no item": (2, [{"scene": "ambiguous"}, {"action": "point"}]),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import pytest
 
@@ -13,63 +12,10 @@ from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.language.answers import PAPER
-from fetch_pomdp.core.ports import Frame, Outcome, Word
-from fetch_pomdp.core.scene import Item
-from fetch_pomdp.core.senses import median_ray, pointing_arms
-from fetch_pomdp.errors import ModelError, ObservationError
+from fetch_pomdp.core.ports import Outcome
+from fetch_pomdp.errors import ModelError
 from tests.core.scripted import Script
-
-HEAD = (0.0, 0.0, 1.6)
-
-
-class Ears:
-    """Words with their times; each is heard once."""
-
-    def __init__(self, *words: tuple[str, float]) -> None:
-        self.words = [Word(text, end - 0.1, end) for text, end in words]
-        self.asked_until: list[float] = []
-
-    def hear(self, until: float) -> Sequence[Word]:
-        self.asked_until.append(until)
-        heard = [word for word in self.words if word.end <= until]
-        self.words = self.words[len(heard) :]
-        return heard
-
-
-class Eyes:
-    """Frames with their times; each is seen once."""
-
-    def __init__(self, *frames: Frame) -> None:
-        self.frames = list(frames)
-
-    def see(self, until: float) -> Sequence[Frame]:
-        seen = [frame for frame in self.frames if frame.time <= until]
-        self.frames = self.frames[len(seen) :]
-        return seen
-
-
-class Arm:
-    """A robot whose actions end as told; DONE after that."""
-
-    def __init__(self, *outcomes: Outcome) -> None:
-        self.outcomes, self.done = list(outcomes), list[str]()
-
-    def _act(self, what: str) -> Outcome:
-        self.done.append(what)
-        return self.outcomes.pop(0) if self.outcomes else Outcome.DONE
-
-    def point(self, item: Item) -> Outcome:
-        return self._act(f"point {item.id}")
-
-    def pick(self, item: Item) -> Outcome:
-        return self._act(f"pick {item.id}")
-
-    def say(self, text: str) -> Outcome:
-        self.done.append(f"say {text}")
-        return Outcome.DONE
-
-    def stop(self) -> None:
-        self.done.append("stop")
+from tests.core.staged import Arm, Ears, Eyes, acted, frame, observed, towards
 
 
 def run(
@@ -77,23 +23,6 @@ def run(
 ) -> tuple[Agent, list[Event]]:
     agent = Agent("ambiguous", script)
     return agent, list(interact(agent, arm or Arm(), ears, eyes))
-
-
-def observed(events: list[Event]) -> list[Observed]:
-    return [event for event in events if isinstance(event, Observed)]
-
-
-def acted(events: list[Event]) -> list[Acted]:
-    return [event for event in events if isinstance(event, Acted)]
-
-
-def frame(time: float, *wrists: tuple[float, float, float], head: tuple[float, float, float] = HEAD) -> Frame:
-    return Frame(time, head, wrists)
-
-
-def towards(x: float, z: float = 0.75) -> tuple[float, float, float]:
-    """A wrist 0.7 m ahead on the ray from HEAD to (x, 3.2, z)."""
-    return (x * 0.2, 3.2 * 0.2, 1.6 + (z - 1.6) * 0.2)
 
 
 def test_words_land_in_the_step_in_which_they_end() -> None:
@@ -233,65 +162,6 @@ def test_words_that_are_no_answers_wait_for_the_end_of_the_question() -> None:
     assert first.observation.words == ()
     assert early.observation.words == ("no",)
     assert late.observation.words == ("green", "marker")
-
-
-# Frames to a ray.
-
-PROBLEM = Agent("ambiguous").problem
-
-
-def test_median_of_pointing_frames_ignores_a_stray_one() -> None:
-    steady = [frame(0.1 * k, towards(0.075)) for k in range(4)]
-    stray = frame(0.9, towards(-0.375))
-    ray = median_ray([*steady, stray], PROBLEM)
-    assert ray is not None
-    assert angles(ray, PROBLEM)[3] < 1e-9
-
-
-def test_median_of_directions_not_of_lengths() -> None:
-    # The arm in the middle is four times as long; of each coordinate of plain arms, the median would point at item 4.
-    x, y, z = (h + 4 * (w - h) for h, w in zip(HEAD, towards(0.075), strict=True))
-    ray = median_ray([frame(0, towards(-0.375)), frame(0, (x, y, z)), frame(0, towards(0.375))], PROBLEM)
-    assert ray is not None
-    assert angles(ray, PROBLEM)[3] < 0.01
-
-
-def test_median_follows_a_moving_head() -> None:
-    moved = (1.0, 0.0, 1.6)
-    wrist = tuple(h + 0.2 * (p - h) for h, p in zip(moved, (0.375, 3.2, 0.75), strict=True))
-    ray = median_ray([frame(0, (wrist[0], wrist[1], wrist[2]), head=moved)] * 3, PROBLEM)
-    assert ray is not None
-    assert ray.head == moved
-    assert angles(ray, PROBLEM)[5] < 1e-9
-
-
-def test_frames_that_do_not_point_do_not_count() -> None:
-    down = (0.2, 0.0, 0.9)
-    assert median_ray([frame(0, down)] * 5, PROBLEM) is None
-    assert median_ray([], PROBLEM) is None
-    ray = median_ray([*[frame(0, down)] * 5, frame(0, towards(0.375))], PROBLEM)
-    assert ray is not None
-    assert angles(ray, PROBLEM)[5] < 1e-9
-
-
-def test_the_arm_that_points_best_counts_whichever_it_is() -> None:
-    down, up = (0.2, 0.0, 0.9), towards(-0.225)
-    for wrists in ((down, up), (up, down), (towards(-0.225, z=1.0), up), (up, towards(-0.225, z=1.0))):
-        heads, arms = pointing_arms([frame(0, *wrists)], PROBLEM)
-        assert heads.tolist() == [list(HEAD)]
-        assert arms.tolist() == [list(up)]
-    assert pointing_arms([Frame(0, HEAD, ())], PROBLEM)[0].shape == (0, 3)
-
-
-@pytest.mark.parametrize("wrist", [HEAD, (math.nan, 0.0, 0.0), (0.0, 2e6, 0.0)])
-def test_an_arm_that_is_no_ray_is_refused(wrist: tuple[float, float, float]) -> None:
-    with pytest.raises(ObservationError, match=r"^wrist: found"):
-        median_ray([frame(0, towards(0.0)), frame(0, wrist)], PROBLEM)
-
-
-def test_opposed_rays_that_cancel_are_no_gesture() -> None:
-    wide = Agent("ambiguous", model={"gesture_threshold": math.pi}).problem
-    assert median_ray([frame(0, (1.0, 0.0, 1.6)), frame(0, (-1.0, 0.0, 1.6))], wide) is None
 
 
 # Robots that fail.

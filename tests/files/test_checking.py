@@ -21,6 +21,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.observation import Observation, sample
 from fetch_pomdp.core.planners.search.planner import SparseSampling
+from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import EventError
 from fetch_pomdp.files.checking import checked, differences, relived, schema
@@ -196,6 +197,32 @@ def test_a_log_lived_through_again_gives_the_same_beliefs_and_decisions(tmp_path
     assert acted > 12
 
 
+def test_what_the_person_gave_back_is_no_decision(tmp_path: Path) -> None:
+    """A robot that picks what it holds likeliest and never asks; a return between is the person's."""
+    path = written(
+        tmp_path / "log.jsonl",
+        [
+            {"scene": "ambiguous", "planner": {"name": "threshold", "pick": 0.4}, "seed": 3},
+            {"action": "wait", "t": 0.0},
+            {"observation": {"utterance": "green marker"}, "t": 1.0},
+            {"action": "pick", "item": "marker-1", "t": 3.0},
+            {"action": "pick", "item": "marker-1", "outcome": "returned", "t": 4.0},
+            {"observation": {"utterance": "no"}, "t": 4.0},
+            {"action": "pick", "item": "marker-2", "t": 6.0},
+            {"observation": {"utterance": "the bowl"}, "t": 8.0, "anew": True},
+            {"action": "wait", "t": 8.0},
+        ],
+    )
+    assert checked(path).faults == ()
+    steps = list(relived(read_recording(path)))
+    decided = [step.decided for step in steps if isinstance(step.event, Acted)]
+    assert decided[2] is None
+    assert None not in decided[:2] + decided[3:]
+    assert [step.asked for step in steps] == [None, None, None, 2, 2, 2, None, None]
+    assert steps[6].belief == pytest.approx(Agent("ambiguous").posterior.updated(
+        Observation(("the", "bowl")), None, Agent("ambiguous").problem).probabilities)  # fmt: skip
+
+
 def test_an_action_that_its_planner_would_not_take_is_named(tmp_path: Path) -> None:
     lines = [{"scene": "ambiguous", "planner": "never"}, {"action": "point", "item": "bowl-1"}]
     path = written(tmp_path / "log.jsonl", lines)
@@ -239,8 +266,9 @@ def test_the_schema_names_the_fields_of_the_reader() -> None:
     kinds = schema()["$defs"]
     assert set(kinds["header"]["properties"]) == {*FIELDS, *STUDY_FIELDS}
     assert tuple(kinds["header"]["properties"]["version"]["enum"]) == READ
-    line = event_to_json(Observed(Observation(("a",)), (), 1.0, ("b",)), SCENE)
-    assert set(line) <= set(kinds["observed"]["properties"])
+    line = event_to_json(Observed(Observation(("a",)), (), 1.0, ("b",), early=True, anew=True), SCENE)
+    assert set(line) == set(kinds["observed"]["properties"])
+    assert kinds["acted"]["properties"]["outcome"]["enum"] == [outcome.value for outcome in Outcome]
     assert set(line["observation"]) <= set(kinds["observed"]["properties"]["observation"]["properties"])
 
 
@@ -258,10 +286,11 @@ def test_every_header_that_is_written_fits_the_schema(header: Header) -> None:
 
 
 VALID: list[dict[str, Any]] = [
-    {"scene": "ambiguous", "version": 2, "seed": 1, "person": 1, "layout": "near"},
+    {"scene": "ambiguous", "version": 3, "seed": 1, "person": 1, "layout": "near"},
     {"action": "point", "item": "bowl-1", "outcome": "done", "t": 1.0, "passes": 3},
-    {"observation": {"utterance": "yes", "head": [0, 0, 1.6], "wrist": [0, 1, 1], "spoken": "yes"}, "t": 2.0},
-]
+    {"observation": {"utterance": "yes", "head": [0, 0, 1.6], "wrist": [0, 1, 1], "spoken": "yes"}, "t": 2.0,
+     "early": True, "anew": False},
+]  # fmt: skip
 values = st.sampled_from([None, 0, -1, 1.5, "", "wait", "bowl-1", True, [], {}, [0, 0, 1], {"id": "x"}])
 
 

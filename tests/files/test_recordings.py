@@ -58,7 +58,7 @@ words = st.lists(
     st.builds(Word, st.sampled_from(["marker", "uh"]), coordinates, coordinates, st.floats(0, 1)), max_size=3
 )
 events: st.SearchStrategy[Event] = st.builds(
-    Observed, st.builds(Observation, texts, rays), words.map(tuple), times, early=st.booleans()
+    Observed, st.builds(Observation, texts, rays), words.map(tuple), times, early=st.booleans(), anew=st.booleans()
 ) | st.builds(Acted, actions, st.sampled_from(Outcome), st.none(), times, st.none() | st.integers(1, 99))
 
 
@@ -92,7 +92,7 @@ def test_headers_survive_a_round_trip(header: Header) -> None:
 def test_a_header_says_only_what_is_not_by_default() -> None:
     header = Header(scene=dataclasses.replace(SCENE, model=Model(sigma=0.2)), scene_name="ambiguous")
     assert header_to_json(header) == {
-        "scene": "ambiguous", "version": 2, "model": {"sigma": 0.2}, "planner": DEFAULT, "seed": 0,
+        "scene": "ambiguous", "version": 3, "model": {"sigma": 0.2}, "planner": DEFAULT, "seed": 0,
     }  # fmt: skip
 
 
@@ -269,9 +269,9 @@ ONE_ITEM = {"id": "cup", "position": [0, 1, 0], "vocabulary": ["cup"]}
             {"scene": {"head": [0, 0, 1], "items": [{**ONE_ITEM, "vocabulary": []}]}},
             "scene.items[0].vocabulary: found []",
         ),
-        ({"scene": "ambiguous", "version": 3}, "version: found 3, expected 1 or 2"),
-        ({"scene": "ambiguous", "version": True}, "version: found True, expected 1 or 2"),
-        ({"scene": "ambiguous", "version": None}, "version: found None, expected 1 or 2"),
+        ({"scene": "ambiguous", "version": 4}, "version: found 4, expected one of 1, 2, 3"),
+        ({"scene": "ambiguous", "version": True}, "version: found True, expected one of 1, 2, 3"),
+        ({"scene": "ambiguous", "version": None}, "version: found None, expected one of 1, 2, 3"),
         ({"scene": "ambiguous", "model": {"sigma": -1}}, "model.sigma: found -1, expected an angle above 0"),
         ({"scene": "ambiguous", "model": {"sigma": float("inf")}}, "model.sigma: found inf"),
         ({"scene": "ambiguous", "model": {"sgma": 1}}, "model.sgma: unknown parameter"),
@@ -316,7 +316,7 @@ def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: 
         ({"action": "pick", "item": 0}, "item: found 0, expected the id of an item"),
         (
             {"action": "pick", "item": "bowl-1", "outcome": "lost"},
-            "outcome: found 'lost', expected one of done, failed, stopped",
+            "outcome: found 'lost', expected one of done, failed, stopped, returned",
         ),
         ({"action": "pick", "item": "bowl-1", "outcome": None}, "outcome: found None"),
         ({"action": "wait", "passes": 0}, "passes: found 0, expected a whole number from 1"),
@@ -340,6 +340,15 @@ def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: 
             "observation.words[0].posterior: found 2, expected a probability",
         ),
         ({"observation": {}, "time": 3}, "time: unknown field"),
+        ({"observation": {}, "early": 1}, "early: found 1, expected true or false"),
+        ({"observation": {}, "anew": "yes"}, "anew: found 'yes', expected true or false"),
+        ({"action": "wait", "anew": True}, "anew: unknown field"),
+        ({"observation": {}, "anew": True}, "anew: found true, expected a pick that was done before another request"),
+        (
+            {"action": "pick", "item": "bowl-1", "outcome": "returned"},
+            "outcome: found 'returned', expected the same pick, done, before it",
+        ),
+        ({"action": "wait", "outcome": "returned"}, "outcome: found 'returned', expected the same pick, done, before"),
     ],
 )
 def test_events_that_are_none(tmp_path: Path, fields: dict[str, Any], message: str) -> None:
@@ -350,15 +359,97 @@ def test_events_that_are_none(tmp_path: Path, fields: dict[str, Any], message: s
     assert "expected" in str(caught.value)
 
 
-@pytest.mark.parametrize("following", [{"observation": {"utterance": "no"}}, {"action": "wait"}])
-def test_nothing_follows_a_pick_that_was_done(tmp_path: Path, following: dict[str, Any]) -> None:
-    start: list[dict[str, Any]] = [{"scene": "ambiguous"}, {"action": "pick", "item": "bowl-1"}]
-    path = written(tmp_path, [*start, following])
+HANDED: list[dict[str, Any]] = [{"scene": "ambiguous"}, {"action": "pick", "item": "bowl-1"}]
+RETURNED: dict[str, Any] = {"action": "pick", "item": "bowl-1", "outcome": "returned"}
+ANEW: dict[str, Any] = {"observation": {"utterance": "the marker"}, "anew": True}
+
+
+@pytest.mark.parametrize(
+    "following",
+    [
+        {"observation": {"utterance": "no"}},
+        {"observation": {"utterance": "no"}, "anew": False},
+        {"observation": {"utterance": "no"}, "early": True},
+        {"action": "wait"},
+        {"action": "point", "item": "bowl-1", "outcome": "returned"},
+        {"action": "pick", "item": "bowl-1"},
+        {"action": "pick", "item": "bowl-1", "outcome": "stopped"},
+        {"action": "pick", "item": "bowl-2", "outcome": "returned"},
+        {"action": "wait", "outcome": "returned"},
+    ],
+)
+def test_only_its_return_and_another_request_follow_a_pick_that_was_done(
+    tmp_path: Path, following: dict[str, Any]
+) -> None:
+    path = written(tmp_path, [*HANDED, following])
     with pytest.raises(EventError) as caught:
         read_recording(path)
-    assert str(caught.value).startswith(f"{path}:3: found an event after a pick that was done, expected the end")
-    refused: dict[str, Any] = {"action": "pick", "item": "bowl-1", "outcome": "failed"}
-    assert len(read_recording(written(tmp_path, [start[0], refused, following])).events) == 2
+    assert str(caught.value) == (
+        f"{path}:3: found an event after a pick that was done, expected the end, its return, or a request anew"
+    )
+    again = written(tmp_path, [*HANDED, RETURNED, {"action": "wait"}, *HANDED[1:], ANEW, *HANDED[1:], following])
+    with pytest.raises(EventError, match=r"events.jsonl:8: found an event after a pick that was done"):
+        read_recording(again)
+    if following.get("outcome") != "returned":
+        refused: dict[str, Any] = {"action": "pick", "item": "bowl-1", "outcome": "failed"}
+        assert len(read_recording(written(tmp_path, [HANDED[0], refused, following])).events) == 2
+
+
+@pytest.mark.parametrize("version", [1, 2])
+def test_older_versions_end_with_the_first_hand_over_and_are_read(tmp_path: Path, version: int) -> None:
+    recording = read_recording(written(tmp_path, [{**HANDED[0], "version": version}, HANDED[1]]))
+    assert recording.over
+    assert recording.events == (Acted(Pick(0)),)
+
+
+def test_a_return_and_another_request_may_follow_a_pick_that_was_done(tmp_path: Path) -> None:
+    lines = [*HANDED, RETURNED, {"observation": {"utterance": "no"}}]
+    recording = read_recording(written(tmp_path, lines))
+    assert [event.outcome for event in recording.events if isinstance(event, Acted)] == [Outcome.DONE, Outcome.RETURNED]
+    assert not recording.over, "it goes on"
+    both = read_recording(written(tmp_path, [*HANDED, ANEW, *HANDED[1:]]))
+    assert both.over
+    assert [event.anew for event in both.events if isinstance(event, Observed)] == [True]
+    assert not read_recording(written(tmp_path, [*HANDED, ANEW])).over
+
+
+@pytest.mark.parametrize("following", [RETURNED, ANEW])
+def test_what_follows_a_hand_over_comes_once(tmp_path: Path, following: dict[str, Any]) -> None:
+    path = written(tmp_path, [*HANDED, following, following])
+    field = "outcome" if following is RETURNED else "anew"
+    with pytest.raises(EventError, match=rf"events.jsonl:4: {field}: found"):
+        read_recording(path)
+
+
+def test_a_replay_takes_back_and_begins_anew(tmp_path: Path) -> None:
+    """After each event, beside an agent that is told by hand what it came to."""
+    lines = [
+        {"scene": "ambiguous", "model": {"turns": {}}},
+        {"observation": {"utterance": "marker"}},
+        {"action": "pick", "item": "marker-1"},
+        {"action": "pick", "item": "marker-1", "outcome": "returned"},
+        {"observation": {"utterance": "no"}},
+        {"action": "pick", "item": "marker-2"},
+        {"observation": {"utterance": "the bowl"}, "anew": True},
+        {"action": "point", "item": "bowl-2"},
+    ]
+    recording = read_recording(written(tmp_path, lines))
+    agent = recording.header.agent()
+    first, second = (Agent("ambiguous", model={"turns": {}}) for _ in range(2))
+    first.observe("marker")
+    first.did(Point(2))
+    first.observe("no")
+    second.observe("the bowl")
+    told = list[tuple[int | None, int | None]]()
+    for number, _ in enumerate(recording.replay(agent), start=2):
+        told.append((agent.asked, agent.handed))
+        if number == 5:
+            assert agent.belief == pytest.approx(first.belief)
+            assert agent.phase == first.phase
+        if number == 7:
+            assert agent.belief == pytest.approx(second.belief)
+            assert agent.phase == second.phase
+    assert told == [(None, None), (None, 2), (2, None), (2, None), (2, 3), (None, None), (1, None)]
 
 
 def test_an_empty_file(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -34,6 +35,24 @@ def test_a_log_is_scored_as_a_trial(tmp_path: Path) -> None:
     told = {**HEADER, "layout": "near", "paradigm": "fetch", "order": 7, "begun": 0.25}
     (trial,) = trials_of([read(tmp_path, told, EVENTS)])
     assert trial == Trial(3, "near", "fetch", "bowl-2", 7, 6.0, True, "bowl-2", 1, 1)
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        [{"action": "pick", "item": "bowl-2", "outcome": "returned", "t": 7.0}, {"action": "pick", "item": "bowl-1"}],
+        [
+            {"observation": {"utterance": "marker"}, "t": 9.0, "anew": True},
+            {"action": "point", "item": "marker-1", "t": 11.0},
+            {"action": "pick", "item": "marker-1", "t": 14.0},
+        ],
+    ],
+)
+def test_a_trial_ends_with_the_first_hand_over(tmp_path: Path, more: list[dict[str, object]]) -> None:
+    told = {**HEADER, "begun": 0.25}
+    first, longer = trials_of([read(tmp_path, told, EVENTS), read(tmp_path, told, [*EVENTS, *more])])
+    assert longer == dataclasses.replace(first, order=1)
+    assert (longer.picked, longer.correct) == ("bowl-2", True)
 
 
 def test_what_a_header_leaves_out(tmp_path: Path) -> None:

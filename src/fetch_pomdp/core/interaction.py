@@ -125,17 +125,16 @@ class _Interaction:
             self._agent.take(observed)
             yield observed
         steps = 0
-        while steps < most_steps:
+        while self._agent.handed is not None or steps < most_steps:
             if self._agent.handed is None:
                 steps += 1
                 yield from self._step()
-            elif self._timing.after:
+                continue
+            if self._timing.after:
                 yield from self._listen_on()
-                if self._agent.handed is not None:
-                    return
-                steps = 0
-            else:
+            if self._agent.handed is not None:
                 return
+            steps = 0
 
     def _step(self) -> Iterator[Event]:
         agent, timing = self._agent, self._timing
@@ -183,8 +182,8 @@ class _Interaction:
             observed = self._listened(self._timing.wait, After.STOPPED)
             words, ray = texts(observed.words), observed.observation.ray
             silence = 0.0 if words else silence + self._timing.wait
-            if self._answers.objects(words):
-                yield self._taken_back(handed)
+            if self._answers.read(words, After.STOPPED).meaning is Meaning.NO:
+                yield self._taken_back(handed, observed)
                 self._agent.take(observed)
                 yield observed
                 return
@@ -195,13 +194,14 @@ class _Interaction:
                 yield begun
                 return
             self._lowered = self._lowered or ray is None
-            self._reply(dataclasses.replace(observed, observation=asked), waited=False)
+            self._reply(observed, waited=False)
 
-    def _taken_back(self, item: int) -> Acted:
+    def _taken_back(self, item: int, objection: Observed) -> Acted:
+        """Take an item back; that counts from the time of the objection, which is read after it."""
         self._robot.say(OBJECTED)
         self._robot.take_back(self._agent.scene.items[item])
         self._now = self._pace.time(self._now)
-        acted = Acted(Pick(item), Outcome.RETURNED, time=self._now)
+        acted = Acted(Pick(item), Outcome.RETURNED, time=objection.time)
         self._agent.take(acted)
         return acted
 

@@ -12,7 +12,8 @@ explained. So silence after a question tells something too.
 
 Choice: a question that has been open for `hesitation` quiet steps is late: it was not heard, or not understood. It may
 be asked again, and then once more in other words (`interaction`); who answers none of these will answer no other, so
-that the robot does what is best without. "I don't know" comes to the same at once; "what?" makes a question late.
+that the robot does what is best without. "I don't know", and nothing else, comes to the same at once; "what?" makes a
+question late.
 """
 
 from __future__ import annotations

@@ -11,7 +11,8 @@ from typing import Any
 
 from fetch_pomdp.core.action import Action
 from fetch_pomdp.core.compiled import Vector
-from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.errors import EventError, InputError
 from fetch_pomdp.files.events import action_to_json
 from fetch_pomdp.files.recordings import Recording
@@ -51,7 +52,8 @@ def _backward(found: Scan) -> Iterator[InputError]:
 class Relived:
     """An event of a recording, and the mind of the agent that lived through it.
 
-    belief: after the event, (n_items,). decided: what the agent would have done in the place of a recorded action.
+    belief: after the event, (n_items,). decided: what the agent would have done in the place of a recorded action; None
+    for what the person did, who gave an item back.
     """
 
     event: Event
@@ -68,12 +70,12 @@ def relived(recording: Recording) -> Iterator[Relived]:
     """
     agent, decided = recording.header.agent(), None
     for place, (event, document) in enumerate(zip(recording.events, recording.documents, strict=True)):
-        if decided is None and (isinstance(event, Acted) or event.early):
+        chosen = isinstance(event, Acted) and event.outcome is not Outcome.RETURNED
+        if decided is None and (chosen or (isinstance(event, Observed) and event.early)):
             decided = agent.decide(passes=_passes(recording.events[place:])).action
         document.build(lambda _, event=event: agent.take(event))  # type: ignore[misc]
-        acted = isinstance(event, Acted)
-        yield Relived(event, document.line_of(""), agent.belief, agent.asked, decided if acted else None)
-        decided = None if acted else decided
+        yield Relived(event, document.line_of(""), agent.belief, agent.asked, decided if chosen else None)
+        decided = None if chosen else decided
 
 
 def _passes(events: Sequence[Event]) -> int | None:

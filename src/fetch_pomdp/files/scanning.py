@@ -51,9 +51,9 @@ def scanned(path: str | Path) -> Scan:
         found = []
         event = _built(document, lambda data: event_from_json(data, scene), found, {"item": scene.items[0].id})
         faults += [fault for fault in found if scene_known or fault.field != "item"]
-        if event is not None and not _may_follow(event, events):
-            after = "found an event after a pick that was done, expected the end, its return, or a request anew"
-            faults.append(EventError(after, source=document.source, line=document.line_of("")))
+        misplaced = None if event is None else _misplaced(event, events)
+        if misplaced is not None:
+            faults.append(misplaced.located(document.source, document.line_of(misplaced.field)))
             break
         if event is not None:
             events.append(event)
@@ -61,15 +61,26 @@ def scanned(path: str | Path) -> Scan:
     return Scan(header, tuple(events), tuple(documents), tuple(faults), torn)
 
 
-def _may_follow(event: Event, events: Sequence[Event]) -> bool:
-    """Whether an event may come after those before: a hand-over ends all but what takes it back or begins anew."""
+def _misplaced(event: Event, events: Sequence[Event]) -> EventError | None:
+    """Return a complaint about an event that cannot come after those before, None for one that can.
+
+    A hand-over ends all but what takes it back or begins anew; and nothing else does either.
+    """
     last = events[-1] if events else None
-    if isinstance(event, Observed):
-        return event.anew == (last is not None and ends(last))
-    returned = event.outcome is Outcome.RETURNED
-    if last is None or not isinstance(last, Acted) or not ends(last):
-        return not returned
-    return returned and event.action == last.action
+    returned = isinstance(event, Acted) and event.outcome is Outcome.RETURNED
+    if last is not None and ends(last):
+        if event.anew if isinstance(event, Observed) else returned and _same_action(event, last):
+            return None
+        return EventError("found an event after a pick that was done, expected the end, its return, or a request anew")
+    if returned:
+        return EventError("found 'returned', expected the same pick, done, before it", field="outcome")
+    if isinstance(event, Observed) and event.anew:
+        return EventError("found true, expected a pick that was done before another request", field="anew")
+    return None
+
+
+def _same_action(one: Event, other: Event) -> bool:
+    return isinstance(one, Acted) and isinstance(other, Acted) and one.action == other.action
 
 
 def ends(event: Event) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from threading import Event
 
@@ -50,6 +51,9 @@ class SteppedRobot:
     def pick(self, item: Item) -> Outcome:
         return self._act(f"pick {item.id}", 2.0)
 
+    def take_back(self, item: Item) -> Outcome:
+        return self._act(f"take back {item.id}", 1.5)
+
     def say(self, text: str) -> Outcome:
         return self._act(f"say {text}", 0.5)
 
@@ -67,13 +71,14 @@ class SteppedRobot:
 class Stage:
     """A live session with all that it needs, and what it told."""
 
-    def __init__(self, *actions: Action, **agent: object) -> None:
+    def __init__(self, *actions: Action, after: float = 0.0, **agent: object) -> None:
         self.clock, self.inbox, self.script = SteppedClock(), Inbox(), Script(*actions)
         self.robot = SteppedRobot(self.clock)
         self.agent = Agent("ambiguous", self.script, **agent)  # type: ignore[arg-type]
         self.told: list[tuple[float, Update]] = []
+        timing = dataclasses.replace(TIMING, after=after)
         self.session = LiveSession(
-            self.agent, self.robot, self.inbox, listener=self.listen, clock=self.clock, timing=TIMING
+            self.agent, self.robot, self.inbox, listener=self.listen, clock=self.clock, timing=timing
         )
 
     def listen(self, update: Update) -> None:

@@ -315,6 +315,53 @@ def test_closing_ends_it_without_a_pick() -> None:
     assert len(stage.observed) == 8
 
 
+def test_what_is_given_back_is_taken_back_on_the_clock_too() -> None:
+    """By hand: the pick ends at 2, "no" is heard in the second after it; then .5 s of words and 1.5 s of an arm."""
+    stage = Stage(Pick(2), Pick(3), after=2.0)
+    stage.word(2.4, "no")
+    stage.run()
+    assert stage.robot.done == [
+        "pick marker-1", "say All right, not that one.", "take back marker-1", "pick marker-2",
+    ]  # fmt: skip
+    assert [(event.outcome, event.time) for event in stage.acted] == [
+        (Outcome.DONE, 2.0), (Outcome.RETURNED, 3.0), (Outcome.DONE, 7.0),
+    ]  # fmt: skip
+    (objection,) = stage.observed
+    assert (objection.observation.words, objection.time) == (("no",), 3.0)
+    assert stage.agent.belief[2] < 0.01
+    assert stage.ended == ["marker-2"]
+    assert stage.clock.now() == 9.0, "two seconds of silence after the second hand-over"
+
+
+def test_a_second_request_begins_anew_on_the_clock_too() -> None:
+    """ "Thanks" and "yes" after the hand-over are no part of the belief, nor of what is shown with the request."""
+    stage = Stage(Wait(), Pick(2), Wait(), Pick(0), after=2.0)
+    stage.word(0.5, "marker")
+    stage.word(3.3, "yes")
+    stage.word(3.5, "thanks")
+    stage.word(5.2, "bowl")
+    stage.word(6.4, "white")
+    stage.run()
+    assert [event.observation.words for event in stage.observed] == [("marker",), ("bowl",), ("white",)]
+    assert [event.anew for event in stage.observed] == [False, True, False]
+    once = Agent("ambiguous", Script())
+    once.observe("bowl")
+    once.observe("white")
+    assert stage.agent.belief == pytest.approx(once.belief)
+    shown = [belief.words for at, belief in stage.beliefs if at > 6.2]
+    assert shown
+    assert all("thanks" not in words for words in shown), "words that began nothing are not shown for ever"
+    assert stage.ended == ["bowl-1"]
+
+
+def test_an_item_given_back_is_not_what_it_ended_with() -> None:
+    stage = Stage(Pick(2), *[Wait()] * 20, after=2.0)
+    stage.word(2.4, "no")
+    stage.clock.at(8.0, stage.session.close)
+    stage.run()
+    assert stage.ended == [None]
+
+
 def test_a_replay_of_the_events_gives_the_same_belief() -> None:
     stage = Stage(Wait(), Point(2), Pick(4), Pick(3))
     stage.partial(0.3, "bowl")
@@ -344,6 +391,9 @@ class QuickRobot:
         return self._act()
 
     def pick(self, item: Item) -> Outcome:
+        return self._act()
+
+    def take_back(self, item: Item) -> Outcome:
         return self._act()
 
     def say(self, text: str) -> Outcome:

@@ -64,6 +64,24 @@ def test_steps_of_an_interaction() -> None:
     ]
 
 
+def test_steps_go_on_after_a_return_and_end_with_a_second_request() -> None:
+    events: list[Event] = [
+        Acted(Wait()),
+        MARKER,
+        Acted(Pick(3)),
+        Acted(Pick(3), Outcome.RETURNED),  # shown, and objected to
+        NO,
+        Acted(Pick(2)),
+        Observed(Observation(("bowl",)), anew=True),
+        Acted(Point(0)),
+        YES,
+    ]
+    assert list(steps_of(events)) == [
+        Step(Wait(), None, Observation(("marker",))),
+        Step(Point(3), 3, Observation(("no",))),
+    ]
+
+
 def test_the_desired_item_must_be_known() -> None:
     header = Header(scene=SCENES[0], target="marker-1", person=7)
     assert interaction_of(header, []) == Interaction(SCENES[0], 2, "7", ())

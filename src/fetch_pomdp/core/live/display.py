@@ -67,8 +67,9 @@ class Display:
             if isinstance(event, Acted):
                 self._tell(Did(event))
             else:
+                # Early answers leave the other words for later; after a hand-over words may have begun nothing.
                 read = frozenset(event.words)
-                self._taken = tuple(word for word in self._taken if word not in read)
+                self._taken = tuple(word for word in self._taken if event.early and word not in read)
                 self._tell(Heard(event))
                 self._tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=texts(event.words)))
         self.look(time)

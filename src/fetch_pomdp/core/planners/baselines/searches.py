@@ -128,6 +128,6 @@ class DoshiRoy:
         checked_asked(belief.probabilities, asked, problem)
         # Nothing was asked before, and no answer comes after a wait.
         chances = problem.tables.chances.copy()
-        chances[:, WAITED, DESIRED : OTHER + 1] = 0.0
+        chances[:, WAITED, [DESIRED, OTHER]] = 0.0
         tables = problem.tables._replace(p_again=0.0, chances=chances)
         return searched(problem, belief, None, search, rng=rng, phase=phase, tables=tables)
