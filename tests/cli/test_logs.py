@@ -7,11 +7,16 @@ from pathlib import Path
 
 import pytest
 
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.events import Acted
+from fetch_pomdp.core.interaction import Timing, interact
+from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.models import with_model
 from fetch_pomdp.files.recordings import EventLog
 from tests.cli.conftest import ASKED, Run
+from tests.core.staged import Arm, Ears
 from tests.study.calibrate.people import TRUTH, logs
 
 
@@ -145,3 +150,24 @@ def test_calibrate_needs_to_know_what_was_desired(run: Run, tmp_path: Path) -> N
     code, out, err = run("calibrate", path)
     assert (code, out) == (2, "")
     assert f"{path}:1: target: found none, expected the id of the item that was desired" in err
+
+
+def test_a_log_with_a_return_and_a_second_request_is_checked_and_replayed(run: Run, tmp_path: Path) -> None:
+    """As it was lived: by a planner that decides from the belief alone, so that each decision comes out again."""
+    path = tmp_path / "log.jsonl"
+    agent = Agent("ambiguous", Threshold(pick=0.4))
+    ears = Ears(
+        ("green", 0.4), ("marker", 0.5), ("no", 1.5), ("thanks", 3.4), ("the", 3.5), ("black", 3.6), ("bowl", 3.7)
+    )
+    header = Header(scene=agent.scene, scene_name="ambiguous", planner="threshold", parameters={"pick": 0.4})
+    kinds = list[str]()
+    with EventLog.create(path, header) as log:
+        for event in interact(agent, Arm(), ears, None, timing=Timing(after=3.0)):
+            log.write(event)
+            kinds.append(event.outcome.value if isinstance(event, Acted) else "anew" if event.anew else "heard")
+    assert kinds.count("returned") == 1
+    assert kinds.count("anew") == 1
+    assert kinds.count("done") > 3
+    code, out, err = run("log", "check", path, "--replay")
+    assert (code, err) == (0, "")
+    assert str(path) in out

@@ -80,11 +80,7 @@ class Turns:
     points_denied: Chances = (0.462, 0.626)
     answers_desired: Ages = (0.308, 0.129, 0.635, 0.3)  # of an answer if the item asked about is the desired one
     answers_other: Ages = (0.162, 0.367, 0.459, 0.45)  # and if it is not
-    answers_again: tuple[float, float, float] = (
-        0.5,
-        0.3,
-        0.02,
-    )  # to a late question asked again, in other words, again
+    answers_again: tuple[float, float, float] = (0.5, 0.3, 0.02)  # to a late question: again, in other words, again
     answers_late: tuple[float] = (0.03,)  # in each step in which a question is late
     answers_settled: tuple[float] = (0.064,)  # of another answer where no question is open
     held: tuple[float, float] = (2.0, 4.0)
