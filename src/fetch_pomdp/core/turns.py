@@ -282,9 +282,7 @@ def _width(talk: Talk, question: QuestionState, turns: Turns) -> float:
 
 def _group(talk: Talk, question: QuestionState, turns: Turns) -> tuple[object, ...]:
     late = _is_late(question, turns)
-    if late or question.asked > 1:
-        return question.asked, late
-    return talk.name(turns.patience), question.kind, min(question.quiet, 1)
+    return talk.name(turns.patience), question.kind, question.asked, late, question.asked > 1 or min(question.quiet, 1)
 
 
 def _talk_after(talk: Talk, quiet: int, words: int, seen: int, turns: Turns) -> Talk:

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fetch_pomdp.core.compiled import RandomState, Vector, compiled, inlined, lean, random_state, uniform
+from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, inlined, lean, random_state, uniform
 from fetch_pomdp.core.planners.fitted.ahead import Lookahead
 from fetch_pomdp.core.planners.fitted.outlook import DistinctWords, look, outlook_size
 from fetch_pomdp.core.planners.fitted.rehearsal import Policy, rehearse
@@ -41,6 +41,7 @@ from fetch_pomdp.core.planners.fitted.table import (
     first_table,
     kind_of,
     pair_class,
+    picks_now,
     place_of,
     table_action,
     with_other,
@@ -52,7 +53,7 @@ from fetch_pomdp.core.simulation import MOST_STEPS
 ROUNDS, SWEEPS = 3, 10
 REHEARSED = 500  # interactions, which show how many are cut short
 EXPLORES = 0.25  # share of the steps that explore: half of them wait, and more ask about the first than the second
-JUMPS = 0.05  # share of the steps that find live people in any phase: few fall silent of themselves
+JUMPS = 0.1  # share of the steps that find live people in any phase: few fall silent of themselves
 RELUCTANT = 0.5  # share of the interactions that pick at no belief below one drawn uniformly
 ANSWERED = 0.2  # i_r that is no leader counts as answered up to this share of b2
 CERTAIN = 0.05  # b2 below which there is no second leader
@@ -89,6 +90,7 @@ class Walk(NamedTuple):
     belief: Vector  # (n_items,)
     heard: Vector  # (n_items,), memory
     state: RandomState
+    doors: Integers  # (groups,), the first phase of each group of phases
 
 
 class Met(NamedTuple):
@@ -102,7 +104,8 @@ def fitted(problem: Problem, distinct: DistinctWords, count: int, seed: int) -> 
     """Return the value table of a problem, fitted on `count` beliefs a round; same seed, same table."""
     tables = problem.tables
     groups = int(tables.alike.max()) + 1
-    start = ValueTable(np.repeat(closed_form(tables), groups, axis=0), np.empty(0))
+    first = picks_now(tables) if groups > 1 else closed_form(tables)
+    start = ValueTable(np.repeat(first, groups, axis=0), np.empty(0))
     close = np.empty(count // 4)
     breaks = class_breaks(close[: pairs_met(start, close, random_state(seed), tables)])
     table = ValueTable(np.repeat(start.values, len(breaks) + 1, axis=0), breaks)
@@ -151,7 +154,10 @@ def meet(ahead: Lookahead, met: Met, state: RandomState) -> None:
 def walk_of(state: RandomState, tables: Tables) -> Walk:
     """Return the memory of interactions that explore."""
     count = len(tables.smoothing)
-    return Walk(np.zeros(1, NOW), np.empty(count), np.empty(count), state)
+    doors = np.zeros(tables.alike.max() + 1, dtype=np.int64)
+    for phase in range(len(tables.alike) - 1, -1, -1):
+        doors[tables.alike[phase]] = phase
+    return Walk(np.zeros(1, NOW), np.empty(count), np.empty(count), state, doors)
 
 
 @lean
@@ -173,8 +179,8 @@ def go_on(walk: Walk, table: ValueTable, tables: Tables) -> bool:
     if action >= len(belief):
         return False
     now["steps"][0] += 1
-    if len(tables.begun) > 1 and uniform(walk.state) < JUMPS:
-        now["phase"][0] = int(uniform(walk.state) * len(tables.begun))
+    if len(walk.doors) > 1 and uniform(walk.state) < JUMPS:
+        now["phase"][0] = walk.doors[int(uniform(walk.state) * len(walk.doors))]
     turn = turn_of(now["asked"][0], now["phase"][0], action)
     now["asked"][0] = turn.about
     now["phase"][0] = live_step(belief, turn, now["desired"][0], walk.heard, walk.state, tables)

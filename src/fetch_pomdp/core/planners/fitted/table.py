@@ -241,6 +241,15 @@ def answered_value(
 
 
 @compiled
+def picks_now(tables: Tables) -> Vector:
+    """Return a table to start from, (1, ROWS, COLUMNS, KINDS), in which nothing more is heard: a pick of the first."""
+    result = np.empty((1, ROWS, COLUMNS, KINDS))
+    for row in range(ROWS):
+        result[0, row] = pick_value(row / (ROWS - 1), tables)
+    return result
+
+
+@compiled
 def closed_form(tables: Tables) -> Vector:
     """Return a table to start from, (1, ROWS, COLUMNS, KINDS): that of leaf `question` (`search.leaf`)."""
     result = np.empty((1, ROWS, COLUMNS, KINDS))
