@@ -185,6 +185,7 @@ class _Interaction:
             silence = 0.0 if words else silence + self._timing.wait
             if self._answers.objects(words):
                 yield self._taken_back(handed)
+                observed = dataclasses.replace(observed, time=self._now)  # what it means is known by then
                 self._agent.take(observed)
                 yield observed
                 return
