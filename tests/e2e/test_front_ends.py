@@ -187,8 +187,11 @@ def brought(person: Person, before: str) -> str:
         if not person.find("#answers").is_visible():
             return person.got()
         about = person.find("#items .about button").get_attribute("data-item")
+        answers = person.log().count("You:")
         person.find(f"[data-say={'no' if about == before else 'yes'}]").click()
-        person.page.wait_for_function(f"() => !({asks})")
+        person.page.wait_for_function(
+            "answers => document.querySelector('#log').innerText.split('You:').length > answers + 1", arg=answers
+        )
 
 
 def sentence(item: str) -> str:
