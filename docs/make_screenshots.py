@@ -71,7 +71,7 @@ def draw(address: str) -> None:
         page.wait_for_timeout(3000)
         page.mouse.move(400, 480)
         page.mouse.down()
-        page.locator("#items .provisional").first.wait_for(timeout=PATIENCE)
+        page.locator("#items .provisional").first.wait_for(state="attached", timeout=PATIENCE)
         page.wait_for_timeout(700)
         page.screenshot(path=FOLDER / "serve-points.png")
         page.mouse.up()
