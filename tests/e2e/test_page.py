@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import wave
 from collections.abc import Callable
 from pathlib import Path
@@ -265,3 +266,56 @@ def write_story(path: Path) -> None:
     with wave.open(str(path), "wb") as made:
         made.setparams(settings)
         made.writeframes(story.tobytes())
+
+
+def test_a_reload_during_a_question_shows_the_question(visit: Visit) -> None:
+    person = visit()
+    person.say("hand me the marker")
+    asked = person.asked_about()
+    person.page.reload()
+    expect(person.find("#answers")).to_be_visible(timeout=PATIENCE)
+    expect(person.find("#bubble")).to_have_text("This one?")
+    expect(person.find("#items .about")).to_contain_text(asked)
+    person.find("[data-say=yes]").click()
+    assert person.got() == asked
+    expect(person.find("#answers")).to_be_hidden()
+
+
+def test_yes_and_no_stay_until_they_are_answered(visit: Visit) -> None:
+    person = visit()
+    person.say("hand me the marker")
+    person.asked_about()
+    person.say("the green one, the expo")
+    expect(person.find("#log")).to_contain_text("expo", timeout=PATIENCE)
+    expect(person.find("#answers")).to_be_visible()
+    expect(person.find("#log")).to_have_text(re.compile("This one.*This one"), timeout=PATIENCE)
+    expect(person.find("#answers")).to_be_visible()
+
+
+def test_an_example_is_said_and_examples_come_back_after_the_hand_over(visit: Visit) -> None:
+    person = visit()
+    expect(person.find("#examples button")).to_have_text(
+        ["hand me the bowl", "the green marker, please", "could I have spoon 2"]
+    )
+    person.find("#examples button").nth(2).focus()
+    person.page.keyboard.press("Enter")
+    expect(person.find("#say")).to_be_focused()
+    expect(person.find("#examples")).to_be_hidden(timeout=PATIENCE)
+    assert person.got() == "spoon-2"
+    expect(person.find("#examples")).to_be_visible(timeout=PATIENCE)
+    person.say("blorb")
+    expect(person.find("#bubble")).to_contain_text("I know: black, bowl", timeout=PATIENCE)
+    person.say("hand me the bowl")
+    expect(person.find("#log")).to_contain_text("Another request", timeout=PATIENCE)
+    expect(person.find("#end")).to_be_hidden()
+
+
+def test_what_was_handed_over_is_given_back(visit: Visit) -> None:
+    person = visit()
+    person.say("spoon 2")
+    assert person.got() == "spoon-2"
+    person.page.reload()
+    expect(person.find("#outcome")).to_have_text("You got spoon-2.", timeout=PATIENCE)
+    person.find("#stop").click()
+    expect(person.find("#log")).to_contain_text("You gave spoon-2 back", timeout=PATIENCE)
+    expect(person.find("#end")).to_be_hidden()

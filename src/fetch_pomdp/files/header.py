@@ -20,7 +20,7 @@ from fetch_pomdp.files.models import changed
 
 VERSION = 3
 READ = (1, 2, VERSION)
-FIELDS = ("scene", "names", "model", "rewards", "version", "planner", "seed", "target")
+FIELDS = ("scene", "model", "rewards", "version", "planner", "seed", "target", "names")
 STUDY_FIELDS = ("person", "layout", "paradigm", "order", "begun")  # from version 2 on
 
 

@@ -20,6 +20,7 @@ from fetch_pomdp.adapters.web.page_messages import (
     header_of,
     read_page_message,
 )
+from fetch_pomdp.core.language.names import named
 from fetch_pomdp.core.live.person import LIVE_MODEL
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
@@ -50,7 +51,7 @@ def hello(**fields: Any) -> Header:
 def test_hello_has_defaults() -> None:
     header, message = hello(), read_page_message('{"type": "hello", "version": 1}')
     assert (header.scene_name, header.planner, header.seed) == ("ambiguous", "fitted", 0)
-    assert header.scene.items == Scene.load("ambiguous").items
+    assert header.scene.items == named(Scene.load("ambiguous")).items
     assert message == Hello(choices={}, resume=None, participant=None, token=None)
 
 

@@ -18,6 +18,7 @@ export class Examples {
   /** The requests of a table. @param {string[]} lines @param {boolean} shown */
   set(lines, shown) {
     this.place.replaceChildren(this.#label, ...lines.map((line) => this.#button(line)));
+    this.place.hidden = !lines.length;
     this.translate();
     this.show(shown);
   }
@@ -25,7 +26,7 @@ export class Examples {
   /** @param {boolean} shown */
   show(shown) {
     const lost = !shown && this.place.contains(document.activeElement);
-    this.place.hidden = !shown || this.place.children.length < 2;
+    this.place.classList.toggle("away", !shown); // its room stays, so that the table does not jump
     if (lost) find("#say").focus();
   }
 

@@ -7,7 +7,9 @@ import { english, isEnglish, text } from "./texts.js";
 /** @import { TableView } from "./table-view.js" */
 
 const MARGIN = 8; // pixels, of the bubble to the sides of the picture
+const TAIL = 14; // pixels, between the bubble and the mouth
 const TOP = 76; // pixels, of the bubble to the top
+const LONG = 60; // letters of a line that is written smaller
 const SHOWN = 3500; // ms that a sentence is shown
 const READ = 9000; // ms that one with words to be read is shown
 
@@ -40,6 +42,7 @@ export class RobotVoice {
   #showLine(line, duration, translated = []) {
     this.#bubble.replaceChildren(line, ...translated);
     this.#bubble.lang = "en";
+    this.#bubble.classList.toggle("long", line.length > LONG);
     this.#bubble.hidden = false;
     this.announce(line);
     clearTimeout(this.#timer);
@@ -84,7 +87,7 @@ export class RobotVoice {
       half = this.#bubble.offsetWidth / 2 + MARGIN,
       width = find("#view-area").clientWidth;
     const left = Math.min(Math.max(x, half), width - half),
-      top = Math.max(y, TOP);
+      top = Math.max(y, TOP, this.#bubble.offsetHeight + TAIL + MARGIN);
     this.#bubble.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
   }
 }
