@@ -243,13 +243,13 @@ def test_what_planners_read_of_a_phase(counts: dict[str, int]) -> None:
         assert phases.begun[number] == (talk.said or talk.pointed)
         assert phases.awaited[number] == (question.state == "open")
         assert phases.late[number] == (question.asked if late else 0)
-        held = (talking(talk, person), question.state, min(question.quiet, 1))
-        alike = (question.asked, late) if late or question.asked > 1 else held
+        age = "late" if late else "first" if question.asked == 1 and question.quiet == 0 else "open"
+        alike = (talking(talk, person), question.state, question.asked, age)
         by_group.setdefault(int(phases.alike[number]), set()).add(alike)
     assert all(len(members) == 1 for members in by_group.values())
     assert len(set.union(*by_group.values())) == len(by_group), "one group twice"
-    open_for_longer = 0 if turns.hesitation == 1 else 7  # of seven kinds of talk
-    assert sorted(by_group) == list(range(7 * 3 + open_for_longer + 5))
+    # Of seven kinds of talk: no question, denied; open at first, for longer, late; and twice more open and late.
+    assert sorted(by_group) == list(range(7 * (8 if turns.hesitation == 1 else 9)))
 
 
 def test_a_talk_begins_with_phase_0() -> None:

@@ -214,8 +214,8 @@ def constant_phases(p_l: float, p_again: float, p_g: float) -> Phases:
 def phases_of(turns: Turns) -> Phases:
     """Return the phases of live people; kept, for a study builds a problem for every trial. Not to be changed in place.
 
-    Choice: a fitted value takes the phases between the words of a request and people's patience for one, and all of a
-    question that was late, whatever was said before.
+    Choice: a fitted value takes the phases between the words of a request and people's patience for one, and those in
+    which a question is open that is not late, but for the first.
     """
     talks, questions = talks_of(turns), questions_of(turns)
     states = [(talk, question) for talk in talks for question in questions]
