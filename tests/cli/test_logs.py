@@ -76,7 +76,7 @@ def test_replay_compares_decisions(run: Run, study: list[Path], tmp_path: Path) 
     assert sum(steps[1]["belief"].values()) == pytest.approx(1)
     assert run("log", "check", "--replay", *study)[0] == 0
     led = written(
-        tmp_path / "led.jsonl", {"scene": "ambiguous", "planner": "never"}, {"action": "point", "item": "bowl-1"}
+        tmp_path / "led.jsonl", {"scene": "ambiguous", "planner": "paper-never"}, {"action": "point", "item": "bowl-1"}
     )
     code, out, err = run("log", "check", "--replay", led)
     assert (code, out) == (2, "")
@@ -115,9 +115,9 @@ def test_calibrate_writes_a_model_that_commands_take(run: Run, study: list[Path]
     assert run("calibrate", *study, "--out", model, "--episodes", 0)[0] == 2, "no file is overwritten"
     recorded = written(tmp_path / "e.jsonl", *ASKED)
     for command in (
-        ("simulate", "ambiguous", "--planner", "never", "--episodes", 20),
+        ("simulate", "ambiguous", "--planner", "paper-never", "--episodes", 20),
         ("filter", recorded),
-        ("decide", recorded, "--planner", "never"),
+        ("decide", recorded, "--planner", "paper-never"),
         ("export", "ambiguous", tmp_path / "scene.pomdp"),
     ):
         assert run(*command, "--model", model)[0] == 0, command

@@ -15,7 +15,7 @@ CONFIG = """
 people = 4
 trials = 1
 [paradigms]
-always = "always"
+always = "paper-always"
 quick = {planner = "threshold", pick = 0.8}
 """
 

@@ -21,7 +21,7 @@ from fetch_pomdp.core.language.phrases import Answers
 from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import SparseSampling
 from fetch_pomdp.core.ports import Outcome
@@ -126,7 +126,7 @@ def test_a_question_asked_persists_until_the_next() -> None:
 
 
 def test_act_goes_on_as_if_done() -> None:
-    agent = Agent("ambiguous", AlwaysAsk())
+    agent = Agent("ambiguous", PaperAlwaysAsk())
     assert agent.act() == Wait()
     assert agent.asked is None
     agent.observe(head=(0.0, 0.0, 1.6), wrist=(-0.075, 3.2, 0.75))

@@ -197,7 +197,7 @@ def test_a_log_lived_through_again_gives_the_same_beliefs_and_decisions(tmp_path
 
 
 def test_an_action_that_its_planner_would_not_take_is_named(tmp_path: Path) -> None:
-    lines = [{"scene": "ambiguous", "planner": "never"}, {"action": "point", "item": "bowl-1"}]
+    lines = [{"scene": "ambiguous", "planner": "paper-never"}, {"action": "point", "item": "bowl-1"}]
     path = written(tmp_path / "log.jsonl", lines)
     (found,) = differences(read_recording(path))
     assert str(found) == (

@@ -21,7 +21,7 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation, sample
 from fetch_pomdp.core.planners.base import Decision
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
@@ -220,7 +220,9 @@ def test_what_is_given_replaces_the_recorded_planner() -> None:
     header = headers[1]  # sparse, depth 3, seed 7
     assert header.agent().planner == SparseSampling(3)
     assert header.agent(width=4, depth=None).planner == SparseSampling(3, 4)
-    assert header.agent(planner="never").planner == NeverAsk(), "another planner's parameters are not its own"
+    assert header.agent(planner="paper-never").planner == PaperNeverAsk(), (
+        "another planner's parameters are not its own"
+    )
     assert header.agent(planner="exact", depth=2).planner == ExactAnswers(2)
     assert header.agent(seed=0).seed == 0
     assert header.agent().seed == 7

@@ -11,7 +11,7 @@ from fetch_pomdp.study.design import Paradigm, Study
 from fetch_pomdp.study.people.parameters import People
 
 PARADIGMS = {
-    "sure": Paradigm(planner="always", parameters={"confidence": 0.9}),
+    "sure": Paradigm(planner="paper-always", parameters={"confidence": 0.9}),
     "quick": Paradigm(planner="threshold", parameters={"pick": 0.8}),
 }
 

@@ -35,7 +35,7 @@ point = -5.0
 speak = 0.5
 
 [paradigms]
-never = "never"
+never = "paper-never"
 
 [paradigms.deep]
 planner = "sparse"
@@ -71,7 +71,7 @@ def test_a_file_says_all_that_a_study_is(tmp_path: Path) -> None:
     assert study.population == People(patience=5.0)
     assert study.clock == Clock(speak=0.5)
     assert study.paradigms == {
-        "never": Paradigm(planner="never"),
+        "never": Paradigm(planner="paper-never"),
         "deep": Paradigm(planner="sparse", parameters={"depth": 3}, rewards={"wait": -0.5}),
     }
     scene = study.scene("kitchen", "deep")

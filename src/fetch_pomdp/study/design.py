@@ -45,8 +45,8 @@ class Paradigm:
 
 
 PAPER = {
-    "never": Paradigm(planner="never"),
-    "always": Paradigm(planner="always"),
+    "never": Paradigm(planner="paper-never"),
+    "always": Paradigm(planner="paper-always"),
     "fetch": Paradigm(planner="sparse"),
 }
 
@@ -65,8 +65,9 @@ class Study:
 
     Choice: layouts take turns over the persons, so that their numbers differ by one at most whatever `people` is.
 
-    Choice: "fetch" is SparseSampling at the depth and width of the paper; our default planner is offered by its own
-    name.
+    Choice: all three robots are the paper's: "fetch" is SparseSampling at its depth and width, "never" the same search
+    without questions, "always" its rule. Our default planner, and the best robots that never or always ask, are offered
+    by names of their own: what asking buys is told with those.
 
     Choice: people and clock are those that come nearest to the paper's twelve cells of all that a search has tried.
 
