@@ -33,6 +33,7 @@ def beats(better: Summary, worse: Summary) -> bool:
     return better.mean_return - worse.mean_return > 3.0 * float(errors)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("problem", [PAPER["ambiguous"], LIVE], ids=["paper", "live"])
 @pytest.mark.parametrize("planner", [NeverAsk(), AlwaysAsk()], ids=repr)
 def test_many_decisions_are_those_one_by_one(planner: Planner, problem: Problem) -> None:
@@ -56,6 +57,7 @@ def test_never_ask_never_asks_and_does_not_value_it(problem: Problem, phase: int
     assert simulate(problem, NeverAsk(), 600, 0).mean_questions == 0.0
 
 
+@pytest.mark.slow
 def test_never_ask_waits_where_the_papers_search_sees_nothing_to_gain() -> None:
     """Measured when it was made, over 20,000 people: -0.53 and 97 % right, the paper's search -1.52 and 68 %."""
     best, papers = (simulate(PAPER["unambiguous"], planner, 6_000, 11) for planner in (NeverAsk(), PaperNeverAsk()))
@@ -64,6 +66,7 @@ def test_never_ask_waits_where_the_papers_search_sees_nothing_to_gain() -> None:
     assert papers.accuracy < 0.75
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", PAPER)
 def test_no_limit_on_the_belief_beats_never_ask(layout: str) -> None:
     best = simulate(PAPER[layout], NeverAsk(), 4_000, 12)
@@ -71,6 +74,7 @@ def test_no_limit_on_the_belief_beats_never_ask(layout: str) -> None:
         assert not beats(simulate(PAPER[layout], OneShot(limit), 4_000, 12), best)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", PAPER)
 def test_always_ask_beats_the_papers_rule_and_not_the_default(layout: str) -> None:
     best, rule, default = (
@@ -80,6 +84,7 @@ def test_always_ask_beats_the_papers_rule_and_not_the_default(layout: str) -> No
     assert not beats(best, default)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("problem", [PAPER["unambiguous"], LIVE], ids=["paper", "live"])
 def test_always_ask_has_asked_before_it_picks(problem: Problem) -> None:
     for number in range(60):
