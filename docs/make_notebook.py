@@ -19,10 +19,10 @@ LINK = re.compile(r"\[([^]]+)\]\((\w[\w-]*\.md)\)")
 
 def notebook(page: str) -> dict[str, Any]:
     """Return the notebook of a page: a code cell for each block of Python, the text between as Markdown."""
-    cells = []
+    cells: list[dict[str, Any]] = []
     for number, piece in enumerate(re.split(r"```python\n(.*?)```\n", page, flags=re.DOTALL)):
         code, source = number % 2 == 1, LINK.sub(r"[\1](../docs/\2)", piece.strip())
-        more = {"execution_count": None, "outputs": []} if code else {}
+        more: dict[str, Any] = {"execution_count": None, "outputs": []} if code else {}
         kind = "code" if code else "markdown"
         cells.append({"cell_type": kind, "id": f"cell-{number}", "metadata": {}, "source": source, **more})
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
