@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.design import Paradigm, Study
 from fetch_pomdp.study.people.parameters import People
 
@@ -26,5 +26,5 @@ def row(count: int) -> Scene:
 
 def small(**changes: Any) -> Study:
     layouts: Mapping[str, Scene] = {"near": row(2), "far": row(3)}
-    plain = {"population": People(), "clock": Clock()}
+    plain = {"population": People(), "clock": Durations()}
     return Study(**{"people": 2, "trials": 1, "layouts": layouts, "paradigms": PARADIGMS, **plain, **changes})

@@ -12,7 +12,7 @@ import pytest
 from fetch_pomdp.core.language.phrases import Answers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.configuration import difference, digest, load_study, to_plain
 from fetch_pomdp.study.design import PAPER, Paradigm, Study
 from fetch_pomdp.study.people.parameters import People
@@ -69,7 +69,7 @@ def test_a_file_says_all_that_a_study_is(tmp_path: Path) -> None:
     assert (study.people, study.trials, study.seed, study.logs) == (4, 2, 7, True)
     assert list(study.layouts) == ["unambiguous", "kitchen"]
     assert study.population == People(patience=5.0)
-    assert study.clock == Clock(speak=0.5)
+    assert study.clock == Durations(speak=0.5)
     assert study.paradigms == {
         "never": Paradigm(planner="paper-never"),
         "deep": Paradigm(planner="sparse", parameters={"depth": 3}, rewards={"wait": -0.5}),

@@ -16,14 +16,14 @@ from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.encounter import Encounter, encounter
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.trial import Assignment, scored
 
 from .people.plain import still
 
-CLOCK = Clock()
+CLOCK = Durations()
 AMBIGUOUS, UNAMBIGUOUS = Scene.load("ambiguous"), Scene.load("unambiguous")
 
 

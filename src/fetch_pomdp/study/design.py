@@ -16,7 +16,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError, StudyError
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.models import changed
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.trial import Assignment
 
@@ -53,7 +53,7 @@ PAPER = {
 
 # Those of studies/people.toml and studies/fitted.toml, which says why.
 PAPERS_PEOPLE = People(patience=4.011, p_answer=0.99, p_miss=0.02814, p_lost=0.005, latency=0.0506)
-PAPERS_CLOCK = Clock(wait=0.5815, arm=0.6, speak=0.5, overhead=3.224)
+PAPERS_CLOCK = Durations(wait=0.5815, arm=0.6, speak=0.5, overhead=3.224)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +80,7 @@ class Study:
     layouts: Mapping[str, Scene] = field(default_factory=lambda: {name: Scene.load(name) for name in LAYOUTS})
     paradigms: Mapping[str, Paradigm] = field(default_factory=lambda: dict(PAPER))
     population: People = PAPERS_PEOPLE
-    clock: Clock = PAPERS_CLOCK
+    clock: Durations = PAPERS_CLOCK
     logs: bool = False  # whether every interaction is kept, event by event
     real_speech: bool = False  # whether words go through a voice and a recogniser, in place of the population's rates
 

@@ -21,7 +21,7 @@ LONGEST = 5_000  # characters of an answer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Option:
+class ResponseOption:
     """A possible answer, or one end of a scale; text: by language."""
 
     id: str
@@ -40,7 +40,7 @@ class Question:
     id: str
     kind: str  # of KINDS
     text: Mapping[str, str]  # by language
-    options: tuple[Option, ...] = ()
+    options: tuple[ResponseOption, ...] = ()
     correct: str | None = None  # of an attention check
     required: bool = True
     page: int = 1
@@ -71,7 +71,7 @@ def question_from_mapping(value: object, path: str) -> Question:
         raise error.within(path) from None
 
 
-def _options(value: object, kind: str) -> tuple[Option, ...]:
+def _options(value: object, kind: str) -> tuple[ResponseOption, ...]:
     if not isinstance(value, list | tuple):
         raise StudyError(f"found {shown(value)}, expected a list of texts by language", field="options")
     options = tuple(_option(each, f"options[{index}]") for index, each in enumerate(value))
@@ -87,7 +87,7 @@ def _options(value: object, kind: str) -> tuple[Option, ...]:
     return options
 
 
-def _correct(data: Mapping[str, Any], kind: str, options: Sequence[Option]) -> str | None:
+def _correct(data: Mapping[str, Any], kind: str, options: Sequence[ResponseOption]) -> str | None:
     names, found = [option.id for option in options], data.get("correct")
     if kind != CHECK and found is not None:
         raise StudyError(f"found {shown(found)}, expected none: only an {CHECK} has a correct answer", field="correct")
@@ -96,12 +96,14 @@ def _correct(data: Mapping[str, Any], kind: str, options: Sequence[Option]) -> s
     return found if kind == CHECK else None
 
 
-def _option(value: object, path: str) -> Option:
+def _option(value: object, path: str) -> ResponseOption:
     """Read an option; without an id, its English text is its id."""
     try:
         fields = dict(checks.mapping(value, "", StudyError))
         name = fields.pop("id", fields.get("en"))
-        return Option(id=checks.text(name, "id", "a name that is not empty", StudyError), text=texts(fields, ""))
+        return ResponseOption(
+            id=checks.text(name, "id", "a name that is not empty", StudyError), text=texts(fields, "")
+        )
     except InputError as error:
         raise error.within(path) from None
 
