@@ -4,7 +4,7 @@ BIN := .venv/bin
 EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
-.PHONY: demo test lint coverage page check-all shows docs numbers audit screenshots film bench picture requirements clean
+.PHONY: demo test compiled lint coverage page check-all shows docs numbers audit screenshots film bench picture requirements clean
 
 demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
@@ -12,8 +12,14 @@ demo: .venv/installed
 	else echo 'On a terminal your turn comes now: .venv/bin/fetch-pomdp fetch ambiguous'; fi
 	@echo 'In a browser: .venv/bin/fetch-pomdp serve'
 
-test: .venv/tested lint coverage
+# The linters take one core while the other compiles what both processes of the tests would compile.
+test: .venv/tested
+	$(MAKE) --no-print-directory -j 2 lint compiled
+	$(MAKE) --no-print-directory coverage
 	$(BIN)/pytest -n 2 --dist worksteal
+
+compiled: .venv/tested
+	$(BIN)/python -m tests.compile
 
 lint: .venv/tested
 	$(BIN)/ruff format --check .

@@ -54,7 +54,7 @@ def test_check_says_what_is_right_and_all_that_is_wrong(run: Run, tmp_path: Path
         f"{bad}:2: action: found 'grab', expected one of wait, point, pick",
         f"{bad}:3: found [1], expected a JSON object",
         f"{tmp_path / 'none.jsonl'}: cannot be read: No such file or directory, expected a readable file",
-        "2 of 3 files with faults",
+        "2 of 3 files had faults",
     ]
     assert run("log", "check", good)[0] == 0
 
@@ -63,7 +63,7 @@ def test_a_half_written_end_is_told_and_no_fault(run: Run, tmp_path: Path) -> No
     path = written(tmp_path / "log.jsonl", *ASKED)
     path.write_text(path.read_text() + '{"action": "pi')
     code, out, err = run("log", "check", path)
-    assert (code, out, err) == (0, f"{path}: ok, 4 events; line 6 is half-written and left out\n", "")
+    assert (code, out, err) == (0, f"{path}: ok, 4 events; line 6 is incomplete and was left out\n", "")
     assert run("filter", path, "--json")[0] == 0
 
 

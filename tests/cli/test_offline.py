@@ -59,7 +59,7 @@ def test_a_half_written_last_line_is_told_beside_the_output(run: Run, tmp_path: 
     torn.write_text(whole.read_text() + '{"observation": {"utter')
     code, out, err = run(command, torn, "--json")
     assert (code, out) == (0, run(command, whole, "--json")[1])
-    said = f"fetch-pomdp: {torn}:{len(ASKED) + 1}: left out: this last line is half-written"
+    said = f"fetch-pomdp: {torn}:{len(ASKED) + 1}: this last line is incomplete and was left out"
     assert err.splitlines().count(said) == 1
     assert "left out" not in run(command, whole, "--json")[2]
 
@@ -68,7 +68,7 @@ def test_decide_refuses_an_interaction_that_is_over(run: Run, tmp_path: Path) ->
     path = events(tmp_path / "e.jsonl", *ASKED, {"action": "pick", "item": "marker-2"})
     code, out, err = run("decide", path)
     assert (code, out) == (2, "")
-    assert "found a pick that was done" in err
+    assert "found an interaction that is over" in err
 
 
 def test_a_failed_pick_can_be_followed_by_an_observation(run: Run, tmp_path: Path) -> None:

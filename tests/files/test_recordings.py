@@ -130,7 +130,7 @@ def test_a_log_on_disk_is_read_back(tmp_path: Path) -> None:
     assert recording.header == headers[1]
     assert list(recording.events) == written
     assert recording.over
-    with pytest.raises(EventError, match="found a file there already, expected a new one"):
+    with pytest.raises(EventError, match="found an existing file, expected a new one"):
         EventLog.create(path, headers[1])
     with pytest.raises(EventError, match=r"cannot be written: .*, expected a folder for it"):
         EventLog.create(tmp_path / "none" / "log.jsonl", headers[1])
@@ -308,7 +308,10 @@ def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: 
     [
         ({}, "observation: found no such field"),
         ({"t": 1}, "observation: found no such field"),
-        ({"action": "wait", "observation": {}}, "action: found an observation too, expected a line for each"),
+        (
+            {"action": "wait", "observation": {}},
+            "action: found an action and an observation, expected one line for each",
+        ),
         ({"action": "grab"}, "action: found 'grab', expected one of wait, point, pick"),
         ({"action": None}, "action: found None"),
         ({"action": ["wait"]}, "action: found ['wait']"),
@@ -358,7 +361,7 @@ def test_nothing_follows_a_pick_that_was_done(tmp_path: Path, following: dict[st
     path = written(tmp_path, [*start, following])
     with pytest.raises(EventError) as caught:
         read_recording(path)
-    assert str(caught.value).startswith(f"{path}:3: found an event after a pick that was done, expected the end")
+    assert str(caught.value).startswith(f"{path}:3: found an event after the hand-over, expected the end")
     refused: dict[str, Any] = {"action": "pick", "item": "bowl-1", "outcome": "failed"}
     assert len(read_recording(written(tmp_path, [start[0], refused, following])).events) == 2
 

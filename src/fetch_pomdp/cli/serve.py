@@ -113,15 +113,15 @@ def _check_combination(scene: str, study: Path | None, options: Mapping[str, obj
     if preview and study is None:
         raise InputError("--preview needs --study")
     if preview and options["--database"] is not None:
-        raise InputError("a preview keeps nothing; leave this out beside --preview", field="--database")
+        raise InputError("a preview keeps nothing; leave this out with --preview", field="--database")
     if study is None:
         for name in ("--database", "--researcher-token"):
             if options[name] is not None:
                 raise InputError(f"{name} needs --study")
     elif scene != BEGINNING:
-        raise InputError("a study has its own scenes; leave this out beside --study", field="SCENE")
+        raise InputError("a study has its own scenes; leave this out with --study", field="SCENE")
     elif options["--data"] is not None:
-        raise InputError("a study is kept in its database; leave this out beside --study", field="--data")
+        raise InputError("a study is kept in its database; leave this out with --study", field="--data")
 
 
 @contextmanager

@@ -51,7 +51,7 @@ def scanned(path: str | Path) -> Scan:
         event = _built(document, lambda data: event_from_json(data, scene), found, {"item": scene.items[0].id})
         faults += [fault for fault in found if scene_known or fault.field != "item"]
         if events and ends(events[-1]):
-            after = "found an event after a pick that was done, expected the end of the interaction"
+            after = "found an event after the hand-over, expected the end of the interaction"
             faults.append(EventError(after, source=document.source, line=document.line_of("")))
             break
         if event is not None:
