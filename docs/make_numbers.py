@@ -45,7 +45,7 @@ PLANNERS: Mapping[str, Planner] = {
     "`PaperNeverAsk()`, paradigm one": PaperNeverAsk(),
 }
 OTHERS = ("chai", "williams-young", "doshi-roy", "information-gain", "one-shot")
-SCORED = ("fitted", "exact", "sparse", "threshold", "never", "always", "paper-never", "paper-always", *OTHERS)
+SCORED = ("fitted", "exact", "sparse", "threshold", "paper-never", "paper-always", *OTHERS)
 GAMES = 1_000
 TABLE_OF: Mapping[str, tuple[str, ...]] = {
     "returns": ("README.md", "docs/planners.md"),
