@@ -4,7 +4,7 @@ BIN := .venv/bin
 EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
-.PHONY: demo test lint coverage page check-all shows audit screenshots film bench picture requirements clean
+.PHONY: demo test compiled lint coverage page check-all shows docs numbers audit screenshots film bench picture requirements clean
 
 demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
@@ -12,8 +12,14 @@ demo: .venv/installed
 	else echo 'On a terminal your turn comes now: .venv/bin/fetch-pomdp fetch ambiguous'; fi
 	@echo 'In a browser: .venv/bin/fetch-pomdp serve'
 
-test: .venv/tested lint coverage
+# The linters take one core while the other compiles what both processes of the tests would compile.
+test: .venv/tested
+	$(MAKE) --no-print-directory -j 2 lint compiled
+	$(MAKE) --no-print-directory coverage
 	$(BIN)/pytest -n 2 --dist worksteal
+
+compiled: .venv/tested
+	$(BIN)/python -m tests.compile
 
 lint: .venv/tested
 	$(BIN)/ruff format --check .
@@ -40,6 +46,23 @@ check-all: test shows
 
 shows: .venv/tested
 	tests/with_postgres.sh $(BIN)/pytest -m 'browser or postgres or load' tests
+
+# The documentation as a site in build/site, without a warning; then the tutorial's notebook, cell by cell.
+docs: .venv-docs/installed
+	NO_MKDOCS_2_WARNING=1 .venv-docs/bin/mkdocs build --quiet --strict
+	.venv-docs/bin/python docs/make_notebook.py --run
+
+.venv-docs/installed: pyproject.toml requirements/docs.txt
+	@$(PYTHON) -m venv .venv-docs
+	@.venv-docs/bin/pip install -q --disable-pip-version-check -r requirements/docs.txt
+	@.venv-docs/bin/pip install -q --disable-pip-version-check --no-deps -e .
+	@touch $@
+
+# Every table of numbers in README.md and docs/ that a command of the package makes, half an hour on two cores;
+# tests/test_numbers.py checks the cheap ones.
+numbers: .venv/tested
+	$(BIN)/python docs/make_numbers.py
+	$(BIN)/python docs/make_reproduction.py
 
 # Known holes in what is installed, asked of PyPI; not a part of the tests, for those need no network.
 audit:
@@ -75,11 +98,13 @@ picture: .venv/installed
 	@touch $@
 
 # Pins without registry addresses, the same in all files; needs uv.
-PIN = uv pip compile pyproject.toml --universal --no-header --no-annotate -q
+PIN = uv pip compile pyproject.toml --universal --generate-hashes --no-strip-extras --no-header --no-annotate -q
 requirements:
 	$(PIN) $(EXTRAS) --group dev --group browser --group bench -o requirements/bench.txt
 	$(PIN) $(EXTRAS) --group dev --group browser -c requirements/bench.txt -o requirements/test.txt
 	$(PIN) --extra speech --extra serve -c requirements/bench.txt -o requirements/run.txt
+	$(PIN) -c requirements/bench.txt -o requirements/core.txt
+	$(PIN) --extra serve --extra study --group docs -c requirements/bench.txt -o requirements/docs.txt
 
 clean:
-	rm -rf .venv .venv-audit node_modules .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-audit .venv-docs build node_modules .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis

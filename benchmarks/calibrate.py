@@ -34,7 +34,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.study.calibrate.calibration import Calibration, calibrate
 from fetch_pomdp.study.calibrate.modelled import modelled
 from fetch_pomdp.study.calibrate.steps import Interaction
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.encounter import encounter
 from fetch_pomdp.study.people.parameters import People
 
@@ -75,7 +75,7 @@ def of_the_model(truth: Truth, people: int, trials: int, rng: Generator) -> Iter
 
 def of_others(people: int, trials: int, rng: Generator) -> Iterator[Interaction]:
     """Yield interactions with people who do not follow the model."""
-    population, clock = People(), Clock()
+    population, clock = People(), Durations()
     for person in range(people):
         scene, traits = SCENES[person % 2], population.traits(rng)
         for trial in range(trials):

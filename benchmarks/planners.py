@@ -43,7 +43,8 @@ def main() -> None:
         results = measured(quick=options.quick, say=say)
         options.out.mkdir(parents=True, exist_ok=True)
         (options.out / "planners.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
-    plot.draw(results, (options.earlier or options.out) / "planners.png")
+    beside = options.docs.parent if options.docs else options.earlier or options.out
+    plot.draw(results, beside / "planners.png")
     if options.docs:
         report.refresh(options.docs, results)
     if options.json:

@@ -1,4 +1,4 @@
-"""Copy every "Choice:" of the source into docs/model.md, between its markers.
+"""Copy every "Choice:" of the source into docs/choices.md, between its markers.
 
 python docs/make_choices.py
 """
@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 SOURCE = ROOT / "src" / "fetch_pomdp"
-PAGE = ROOT / "docs" / "model.md"
+PAGE = ROOT / "docs" / "choices.md"
 BEGIN, END = "<!-- choices -->\n", "<!-- end of choices -->\n"
 
 

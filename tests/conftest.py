@@ -38,9 +38,11 @@ settings.load_profile("repeatable")
 
 def _fit_quickly_without_compilation() -> None:
     """In plain Python a fit takes minutes; the coverage run is about lines, so it fits on few beliefs."""
+    from fetch_pomdp.core.planners.baselines import paradigms
     from fetch_pomdp.core.planners.fitted import fit, selection
 
     whole = fit.fitted
+    vars(paradigms).update(MOST_PLAYED=4, LIMITS=(0.5, 0.8), OPENINGS=(0.0, 1.1))
     vars(fit).update(ROUNDS=2, SWEEPS=1, REHEARSED=2)
     vars(selection).update(
         MOST_REHEARSED=4,

@@ -7,6 +7,7 @@ import re
 import runpy
 import subprocess
 import sys
+import types
 from pathlib import Path
 
 import pytest
@@ -23,9 +24,19 @@ EXAMPLES = [
 
 
 @pytest.mark.parametrize("code", EXAMPLES)
-def test_examples_run(code: str) -> None:
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+def test_examples_run(code: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each in a module of its own, as if it were a file; a process of its own would spend its time importing."""
+    monkeypatch.chdir(ROOT)
+    module = types.ModuleType("__main__")
+    monkeypatch.setitem(sys.modules, "__main__", module)
+    exec(compile(code, "<example>", "exec"), vars(module))  # noqa: S102
+
+
+def test_the_notebook_is_the_tutorial() -> None:
+    script = runpy.run_path(str(ROOT / "docs" / "make_notebook.py"))
+    page = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+    assert (ROOT / "examples" / "tutorial.ipynb").read_text(encoding="utf-8") == script["written"](page)
+    assert sum(cell["cell_type"] == "code" for cell in script["notebook"](page)["cells"]) == page.count("```python")
 
 
 def test_the_readme_example_is_short_and_asks() -> None:
@@ -37,7 +48,7 @@ def test_the_readme_example_is_short_and_asks() -> None:
 
 
 def test_the_list_of_choices_is_that_of_the_source() -> None:
-    page = (ROOT / "docs" / "model.md").read_text()
+    page = (ROOT / "docs" / "choices.md").read_text()
     script = runpy.run_path(str(ROOT / "docs" / "make_choices.py"))
     assert script["page_with_choices"](page) == page
     written = sum(path.read_text().count("Choice:") for path in (ROOT / "src").rglob("*.py"))

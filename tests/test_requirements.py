@@ -15,18 +15,28 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).parent.parent
-FILES = {name: (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8") for name in ("run", "test", "bench")}
-PIN = re.compile(r"([a-z0-9][a-z0-9-]*)==([0-9][0-9a-z.!+-]*)(?: ; (.+))?")
+FILES = {
+    name: (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8")
+    for name in ("core", "run", "test", "bench", "docs")
+}
+PIN = re.compile(
+    r"([a-z0-9][a-z0-9-]*)(?:\[[a-z0-9,-]+\])?==([0-9][0-9a-z.!+-]*)(?: ; (.+?))?((?: --hash=sha256:[0-9a-f]{64})+)"
+)
 
 
-def pins(name: str) -> dict[str, list[tuple[str, str | None]]]:
-    """The versions of each package, and the markers under which they hold."""
-    found: dict[str, list[tuple[str, str | None]]] = {}
-    for line in FILES[name].splitlines():
+def pins(name: str) -> dict[str, list[tuple[str, str | None, str]]]:
+    """The versions of each package, the markers under which they hold, and the hashes of their files."""
+    found: dict[str, list[tuple[str, str | None, str]]] = {}
+    for line in FILES[name].replace(" \\\n   ", "").splitlines():
         match = PIN.fullmatch(line)
         assert match, f"requirements/{name}.txt: {line}"
-        found.setdefault(match[1], []).append((match[2], match[3]))
+        found.setdefault(match[1], []).append((match[2], match[3], match[4]))
     return found
+
+
+def pinned(name: str) -> set[tuple[str, ...]]:
+    """The pins of a file, whole."""
+    return {(package, *map(str, pin)) for package, all_ in pins(name).items() for pin in all_}
 
 
 def wanted(*extras: str) -> Iterator[Requirement]:
@@ -41,26 +51,29 @@ def wanted(*extras: str) -> Iterator[Requirement]:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_each_line_pins_one_version_from_any_registry(name: str) -> None:
+def test_each_line_pins_one_version_by_its_files_hashes_from_any_registry(name: str) -> None:
     assert pins(name)
 
 
 def test_what_runs_is_tested_at_the_same_versions() -> None:
-    run, test, bench = ({(name, *pin) for name, all_ in pins(file).items() for pin in all_} for file in FILES)
-    assert run <= test <= bench
+    core, run, test, bench = (pinned(file) for file in ("core", "run", "test", "bench"))
+    assert core <= run <= test <= bench
+    for name, versions in pins("docs").items():
+        if name in pins("bench"):
+            assert {found for found, *_ in versions} <= {found for found, *_ in pins("bench")[name]}, name
 
 
 def test_pins_satisfy_the_package() -> None:
-    pinned = pins("run")
+    versions = pins("run")
     for requirement in wanted("speech", "serve"):
-        for found, _ in pinned[canonicalize_name(requirement.name)]:
+        for found, *_ in versions[canonicalize_name(requirement.name)]:
             assert requirement.specifier.contains(found), f"{requirement}: {found}"
 
 
 def test_the_tests_run_with_the_pinned_versions() -> None:
     other = []
     for package, versions in pins("test").items():
-        here = [found for found, marker in versions if marker is None or Marker(marker).evaluate()]
+        here = [found for found, marker, _ in versions if marker is None or Marker(marker).evaluate()]
         try:
             installed = version(package)
         except PackageNotFoundError:

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp import (
-    AlwaysAsk,
     Belief,
     ExactAnswers,
     FittedValue,
-    NeverAsk,
+    PaperAlwaysAsk,
+    PaperNeverAsk,
     Problem,
     Scene,
     SparseSampling,
@@ -73,8 +73,8 @@ def ours(problem: Problem) -> Iterator[Contestant]:
     for depth, width, episodes in ((2, 10, 6_000), (2, 100, 4_000), (3, 10, 2_000), (4, 10, 240)):
         family = "SparseSampling" if depth == 2 else "SparseSampling, deeper"
         yield Contestant(f"SparseSampling({depth}, {width})", family, Timed(SparseSampling(depth, width)), episodes)
-    yield Contestant("NeverAsk", "NeverAsk", Timed(NeverAsk()), 6_000)
-    yield Contestant("AlwaysAsk", "AlwaysAsk", Timed(AlwaysAsk()), 6_000)
+    yield Contestant("PaperNeverAsk", "PaperNeverAsk", Timed(PaperNeverAsk()), 6_000)
+    yield Contestant("PaperAlwaysAsk", "PaperAlwaysAsk", Timed(PaperAlwaysAsk()), 6_000)
     plain = Timed(PlainSparse(World(problem)))
     yield Contestant("plain NumPy sparse sampling (2, 10)", "plain NumPy", plain, 1_000)
 

@@ -26,8 +26,8 @@ STYLES = {
     "ExactAnswers, leaf pick": ("o", "white", "-"),
     "SparseSampling": ("s", "0.55", "--"),
     "SparseSampling, deeper": ("p", "0.55", ""),
-    "NeverAsk": ("v", "white", ":"),
-    "AlwaysAsk": ("^", "white", ":"),
+    "PaperNeverAsk": ("v", "white", ":"),
+    "PaperAlwaysAsk": ("^", "white", ":"),
     "plain NumPy": ("s", "white", "--"),
     "POUCT, aided": ("D", "0.55", "-."),
     "POMCP, aided": ("D", "black", "-."),
@@ -39,7 +39,7 @@ SCALING = (
     ("ExactAnswers, default", None, "ExactAnswers", "ExactAnswers, default"),
     ("ExactAnswers, leaf pick", 10, "ExactAnswers, leaf pick", "ExactAnswers(2, 10), leaf pick"),
     ("SparseSampling", 10, "SparseSampling", "SparseSampling(2, 10)"),
-    ("NeverAsk", 10, "NeverAsk", "NeverAsk(2, 10)"),
+    ("PaperNeverAsk", 10, "PaperNeverAsk", "PaperNeverAsk(2, 10)"),
 )
 
 

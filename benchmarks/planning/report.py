@@ -1,4 +1,4 @@
-"""The results as Markdown tables, for the terminal and for `docs/benchmarks.md` alike."""
+"""The results as Markdown tables, for the terminal and for `docs/benchmark-tables.md` alike."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fetch_pomdp import Agent, Belief, ExactAnswers, FittedValue, NeverAsk, Planner, Problem, SparseSampling
+from fetch_pomdp import Agent, Belief, ExactAnswers, FittedValue, PaperNeverAsk, Planner, Problem, SparseSampling
 from fetch_pomdp.core.compiled import Vector, compiled
 from fetch_pomdp.core.planners.fitted.ahead import Lookahead, step_ahead
 from fetch_pomdp.core.planners.fitted.planner import MOST_FITTED, solution
@@ -101,7 +101,7 @@ def cases(n_items: int, limit: float) -> Iterator[Case]:
                 ("ExactAnswers, leaf question", ExactAnswers(depth, width), question),
                 ("ExactAnswers, leaf pick", ExactAnswers(depth, width, "pick"), asks),
                 ("SparseSampling", SparseSampling(depth, width), sampled),
-                ("NeverAsk", NeverAsk(depth, width), silent),
+                ("PaperNeverAsk", PaperNeverAsk(depth, width), silent),
             ):
                 case = Case(name, n_items, depth, width, planner, search_loop, search)
                 if case.expected() < limit:

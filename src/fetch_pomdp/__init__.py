@@ -30,6 +30,8 @@ __all__ = [
     "Observation",
     "Observed",
     "Outcome",
+    "PaperAlwaysAsk",
+    "PaperNeverAsk",
     "Pick",
     "Planner",
     "Point",

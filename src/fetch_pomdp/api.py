@@ -14,8 +14,9 @@ from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision, Planner, decide_many
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.baselines.paradigms import AlwaysAsk, NeverAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold, tuned
@@ -48,6 +49,8 @@ __all__ = [
     "Observation",
     "Observed",
     "Outcome",
+    "PaperAlwaysAsk",
+    "PaperNeverAsk",
     "Pick",
     "Planner",
     "Point",

@@ -37,7 +37,7 @@ FILES: dict[str, str | bytes] = {
     "twice.toml": HEAD + ITEM + ITEM,
     "unknown.toml": f"colour = 1\n{HEAD}{ITEM}",
     "control.toml": f'{HEAD}{ITEM}[model]\ngesture_likelihood = "\\u0000"\n',
-    "quick.toml": 'people = 1\n[paradigms]\nnever = "never"\nalways = "always"\n',
+    "quick.toml": 'people = 1\n[paradigms]\nnever = "paper-never"\nalways = "paper-always"\n',
     "sigma.toml": "[model]\nsigma = -1\n",
     "reward.toml": "[rewards]\nwait = 1\n",
     "model-number.toml": "model = 3\n",
@@ -163,11 +163,11 @@ LINES: list[list[str]] = [
     [*STUDY, "--out", "{new}", "--backend", "spark"], [*STUDY, "--out", "{new}", "--address", "nowhere"],
     *(["study", "--people", number, "--out", "{new}"] for number in ["0", *NUMBERS]),
     *([*STUDY, "--workers", number, "--out", "{new}"] for number in NUMBERS[:3]),
-    *(["simulate", "ambiguous", "--planner", "never", "--episodes", number] for number in ["0", *NUMBERS]),
+    *(["simulate", "ambiguous", "--planner", "paper-never", "--episodes", number] for number in ["0", *NUMBERS]),
     *([*SIMULATE, "--seed", number] for number in [*NUMBERS, str(2**63)]),
     *([*SIMULATE, "--planner", "sparse", "--depth", number] for number in ["0", *NUMBERS]),
     *([*SIMULATE, "--planner", "sparse", "--width", number] for number in ["0", *NUMBERS]),
-    [*SIMULATE, "--planner", "sparce"], [*SIMULATE, "--planner", ""], [*SIMULATE, "--planner", "always", "--depth", "3"],
+    [*SIMULATE, "--planner", "sparce"], [*SIMULATE, "--planner", ""], [*SIMULATE, "--planner", "paper-always", "--depth", "3"],
     *([*FETCH, "--planner", "sparse", "--budget", number] for number in ("-1", "0", "nan", "inf", "one")),
     *([*FETCH, "--rate", number, "--audio", "-"] for number in ("0", "7999", "192001", "one")),
     *([*FETCH, "--audio", path] for path in (
@@ -175,7 +175,7 @@ LINES: list[list[str]] = [
     *([*FETCH, "--skeleton", path] for path in (
         "{missing.jsonl}", "{folder}", "{frames.jsonl}", "{binary.jsonl}", "{good.jsonl}", "a\0b", "/dev/zero")),
     [*FETCH, "--audio", "-", "--skeleton", "-"], [*FETCH, "--target", "cup"], [*FETCH, "--person", "-1"],
-    *([*FETCH, "--planner", "never", "--log", path] for path in ("{good.jsonl}", "{folder}", "{missing}/log", "a\0b", "/proc/none", "", "x" * 5000)),
+    *([*FETCH, "--planner", "paper-never", "--log", path] for path in ("{good.jsonl}", "{folder}", "{missing}/log", "a\0b", "/proc/none", "", "x" * 5000)),
     *(["export", "ambiguous", path] for path in (
         "{new.txt}", "{new}", "{folder}", "{missing}/new.pomdp", "a\0b.pomdp", "/proc/none.pomdp", "")),
     *(["export", "ambiguous", "{new.pomdp}", "--discount", number] for number in ("0", "-1", "2", "nan", "inf", "one")),

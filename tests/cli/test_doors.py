@@ -38,7 +38,7 @@ def test_export_writes_both_formats(
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [
-        ("there.pomdp", [], "found a file there already"),
+        ("there.pomdp", [], "found an existing file"),
         ("scene.xml", [], "expected a name that ends in .pomdp or .pomdpx"),
         ("scene.pomdp", ["--discount", 1.5], "discount: found 1.5"),
     ],

@@ -18,7 +18,7 @@ from fetch_pomdp.cli.explain import show_decision
 from fetch_pomdp.cli.main import main
 from fetch_pomdp.core.action import Point
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
 from fetch_pomdp.files.decisions import decision_to_json, explanation_to_json
 from tests.cli.conftest import ASKED
 from tests.tables import table
@@ -88,7 +88,7 @@ def test_json_comes_back_as_it_was() -> None:
 
 
 def test_json_has_null_for_what_is_not_valued_or_not_finite() -> None:
-    agent = Agent(table([["cup"], ["cup"]], p_truth=1.0).scene, AlwaysAsk())
+    agent = Agent(table([["cup"], ["cup"]], p_truth=1.0).scene, PaperAlwaysAsk())
     agent.did(Point(0))
     agent.observe("no")
     found = twice(agent)[1]
@@ -131,7 +131,7 @@ def test_decide_explains_on_a_terminal(
 def test_decide_explains_a_rule_without_values(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], asked: Path
 ) -> None:
-    run(monkeypatch, "decide", asked, "--explain", "--planner", "always")
+    run(monkeypatch, "decide", asked, "--explain", "--planner", "paper-always")
     out = capsys.readouterr().out
     expected = "asks about marker-2: it is 6 times as likely as bowl-1; a wrong pick costs 12.5, the question 6"
     assert out.splitlines()[0].strip() == expected
@@ -140,7 +140,7 @@ def test_decide_explains_a_rule_without_values(
 
 
 def test_a_thousand_items_are_a_short_page() -> None:
-    agent = Agent(table([["cup"]] * 1000, p_g=0.0).scene, AlwaysAsk(), prior=np.arange(1.0, 1001.0) / 500_500)
+    agent = Agent(table([["cup"]] * 1000, p_g=0.0).scene, PaperAlwaysAsk(), prior=np.arange(1.0, 1001.0) / 500_500)
     shown = io.StringIO()
     show_decision(agent.decide(), agent, Console(file=shown, width=100), explained=True)
     assert len(shown.getvalue().splitlines()) < 25

@@ -73,5 +73,5 @@ def test_a_log_never_overwrites_a_file(
     with pytest.raises(SystemExit) as ended:
         main()
     assert ended.value.code == 2
-    assert "found a file there already" in capsys.readouterr().err
+    assert "found an existing file" in capsys.readouterr().err
     assert log.read_text() == "mine\n"

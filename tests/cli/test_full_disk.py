@@ -13,17 +13,17 @@ from fetch_pomdp.study.record import NAME, read_trials
 from tests.cli.conftest import Run
 from tests.files.disk import room_for
 
-CONFIG = 'people = 2\ntrials = 1\n[paradigms]\nalways = "always"\nquick = {planner = "threshold", pick = 0.8}\n'
+CONFIG = 'people = 2\ntrials = 1\n[paradigms]\nalways = "paper-always"\nquick = {planner = "threshold", pick = 0.8}\n'
 
 
 def test_a_log_keeps_the_whole_lines_or_is_not_there(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdin", io.StringIO("a thing\n" * 60))
-    run("fetch", "ambiguous", "--planner", "always")  # Numba's cache has room
+    run("fetch", "ambiguous", "--planner", "paper-always")  # Numba's cache has room
     path = tmp_path / "log.jsonl"
     for room, left in ((10, []), (3000, [path])):
         monkeypatch.setattr(sys, "stdin", io.StringIO("a thing\n" * 60))
         with room_for(room):
-            code, _, err = run("fetch", "ambiguous", "--planner", "always", "--log", path)
+            code, _, err = run("fetch", "ambiguous", "--planner", "paper-always", "--log", path)
         assert (code, list(tmp_path.iterdir())) == (2, left)
         assert err == f"fetch-pomdp: {path}: cannot be written: File too large, expected room for it\n"
     assert read_recording(path).torn is None

@@ -13,7 +13,7 @@ from tests.cli.conftest import Run
 @pytest.mark.slow
 def test_gap_prints_one_object(run: Run) -> None:
     numbers = ("--episodes", 400, "--scenarios", 60, "--seed", 3, "--json")
-    code, out, _ = run("gap", "unambiguous", "--planner", "never", "--planner", "exact", *numbers)
+    code, out, _ = run("gap", "unambiguous", "--planner", "paper-never", "--planner", "exact", *numbers)
     found = json.loads(out)
     assert code == 0
     assert list(found) == ["scene", "episodes", "bound", "planners"]
@@ -22,14 +22,14 @@ def test_gap_prints_one_object(run: Run) -> None:
     assert (found["scene"], found["episodes"], bound["scenarios"], bound["kind"]) == (
         "unambiguous", 400, 60, "relaxation",
     )  # fmt: skip
-    assert [never["planner"], exact["planner"]] == ["never", "exact"]
+    assert [never["planner"], exact["planner"]] == ["paper-never", "exact"]
     for planner in (never, exact):
         assert planner["gap"] == pytest.approx(bound["mean"] - planner["mean_return"])
         assert planner["gap_error"] == pytest.approx(math.hypot(bound["standard_error"], planner["standard_error"]))
         assert planner["solving_seconds"] >= 0
         assert planner["decision_seconds"] > 0
     assert never["gap"] > exact["gap"] + 1.0
-    code, out, _ = run("simulate", "unambiguous", "--planner", "never", "--episodes", 400, "--seed", 3, "--json")
+    code, out, _ = run("simulate", "unambiguous", "--planner", "paper-never", "--episodes", 400, "--seed", 3, "--json")
     assert json.loads(out)["mean_return"] == never["mean_return"]
 
 

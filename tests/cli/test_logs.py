@@ -59,7 +59,7 @@ def test_check_says_what_is_right_and_all_that_is_wrong(run: Run, tmp_path: Path
         f"{bad}:2: action: found 'grab', expected one of wait, point, pick",
         f"{bad}:3: found [1], expected a JSON object",
         f"{tmp_path / 'none.jsonl'}: cannot be read: No such file or directory, expected a readable file",
-        "2 of 3 files with faults",
+        "2 of 3 files had faults",
     ]
     assert run("log", "check", good)[0] == 0
 
@@ -68,7 +68,7 @@ def test_a_half_written_end_is_told_and_no_fault(run: Run, tmp_path: Path) -> No
     path = written(tmp_path / "log.jsonl", *ASKED)
     path.write_text(path.read_text() + '{"action": "pi')
     code, out, err = run("log", "check", path)
-    assert (code, out, err) == (0, f"{path}: ok, 4 events; line 6 is half-written and left out\n", "")
+    assert (code, out, err) == (0, f"{path}: ok, 4 events; line 6 is incomplete and was left out\n", "")
     assert run("filter", path, "--json")[0] == 0
 
 
@@ -81,7 +81,7 @@ def test_replay_compares_decisions(run: Run, study: list[Path], tmp_path: Path) 
     assert sum(steps[1]["belief"].values()) == pytest.approx(1)
     assert run("log", "check", "--replay", *study)[0] == 0
     led = written(
-        tmp_path / "led.jsonl", {"scene": "ambiguous", "planner": "never"}, {"action": "point", "item": "bowl-1"}
+        tmp_path / "led.jsonl", {"scene": "ambiguous", "planner": "paper-never"}, {"action": "point", "item": "bowl-1"}
     )
     code, out, err = run("log", "check", "--replay", led)
     assert (code, out) == (2, "")
@@ -120,9 +120,9 @@ def test_calibrate_writes_a_model_that_commands_take(run: Run, study: list[Path]
     assert run("calibrate", *study, "--out", model, "--episodes", 0)[0] == 2, "no file is overwritten"
     recorded = written(tmp_path / "e.jsonl", *ASKED)
     for command in (
-        ("simulate", "ambiguous", "--planner", "never", "--episodes", 20),
+        ("simulate", "ambiguous", "--planner", "paper-never", "--episodes", 20),
         ("filter", recorded),
-        ("decide", recorded, "--planner", "never"),
+        ("decide", recorded, "--planner", "paper-never"),
         ("export", "ambiguous", tmp_path / "scene.pomdp"),
     ):
         assert run(*command, "--model", model)[0] == 0, command

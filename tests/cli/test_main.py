@@ -37,12 +37,12 @@ def printing(log: Path) -> dict[str, list[object]]:
         "help": ["--help"],
         "version": ["--version"],
         "filter": ["filter", log],
-        "decide": ["decide", log, "--planner", "never"],
-        "simulate": ["simulate", "ambiguous", "--planner", "never", "--episodes", 20],
-        "fetch": ["fetch", "ambiguous", "--skeleton", SKELETON, "--planner", "never"],
+        "decide": ["decide", log, "--planner", "paper-never"],
+        "simulate": ["simulate", "ambiguous", "--planner", "paper-never", "--episodes", 20],
+        "fetch": ["fetch", "ambiguous", "--skeleton", SKELETON, "--planner", "paper-never"],
         "replay": ["log", "replay", log],
         "schema": ["log", "schema"],
-        "robocup": ["robocup", "--planner", "never", "--games", 2],
+        "robocup": ["robocup", "--planner", "paper-never", "--games", 2],
         "template": ["participants", "template"],
     }
 
@@ -121,7 +121,7 @@ event.register("numba:llvm_lock", Listener())
     ],
 )
 def test_ctrl_c_in_the_first_seconds_ends_it_silently(tmp_path: Path, begin: str) -> None:
-    run = "sys.argv = ['fetch-pomdp', 'simulate', 'ambiguous', '--episodes', '10', '--planner', 'never']; main()"
+    run = "sys.argv = ['fetch-pomdp', 'simulate', 'ambiguous', '--episodes', '10', '--planner', 'paper-never']; main()"
     code = f"{begin}\nimport sys\nfrom fetch_pomdp.cli.main import main\n{run}"
     new_cache = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=new_cache)
@@ -154,18 +154,18 @@ def test_an_error_of_the_system_names_the_file(run: Run, log: Path, monkeypatch:
 def test_a_closed_stream_is_no_fault(run: Run, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.setattr(sys, "stdin", io.StringIO())
     monkeypatch.setattr(sys, name, None)
-    code, out, _ = run("fetch", "ambiguous", "--planner", "never")
+    code, out, _ = run("fetch", "ambiguous", "--planner", "paper-never")
     assert code == 0
     assert ("Nothing was handed over." in out) is (name != "stdout")
 
 
 def test_what_is_typed_or_printed_need_not_be_utf_8(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"the \xff marker\n"), encoding="utf-8"))
-    assert run("fetch", "ambiguous", "--planner", "never")[0] == 0
+    assert run("fetch", "ambiguous", "--planner", "paper-never")[0] == 0
     written = io.BytesIO()
     monkeypatch.setattr(sys, "stdin", io.StringIO("marker\n"))
     monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(written, encoding="ascii", write_through=True))
-    assert run("fetch", "ambiguous", "--planner", "never")[0] == 0
+    assert run("fetch", "ambiguous", "--planner", "paper-never")[0] == 0
     assert rb"\u2588" in written.getvalue()
 
 

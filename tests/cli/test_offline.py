@@ -45,7 +45,7 @@ def test_decide_prints_the_action_and_every_value(run: Run, tmp_path: Path) -> N
 
 
 def test_decide_gives_null_where_a_planner_values_nothing(run: Run, tmp_path: Path) -> None:
-    _, out, _ = run("decide", events(tmp_path / "e.jsonl", *ASKED), "--planner", "always")
+    _, out, _ = run("decide", events(tmp_path / "e.jsonl", *ASKED), "--planner", "paper-always")
     decision = json.loads(out)
     assert decision["action"] == "point"
     assert decision["item"] == "marker-2"
@@ -59,7 +59,7 @@ def test_a_half_written_last_line_is_told_beside_the_output(run: Run, tmp_path: 
     torn.write_text(whole.read_text() + '{"observation": {"utter')
     code, out, err = run(command, torn, "--json")
     assert (code, out) == (0, run(command, whole, "--json")[1])
-    said = f"fetch-pomdp: {torn}:{len(ASKED) + 1}: left out: this last line is half-written"
+    said = f"fetch-pomdp: {torn}:{len(ASKED) + 1}: this last line is incomplete and was left out"
     assert err.splitlines().count(said) == 1
     assert "left out" not in run(command, whole, "--json")[2]
 
@@ -68,7 +68,7 @@ def test_decide_refuses_an_interaction_that_is_over(run: Run, tmp_path: Path) ->
     path = events(tmp_path / "e.jsonl", *ASKED, {"action": "pick", "item": "marker-2"})
     code, out, err = run("decide", path)
     assert (code, out) == (2, "")
-    assert "found a pick that was done" in err
+    assert "found an interaction that is over" in err
 
 
 def test_a_second_request_is_filtered_and_decided_anew(run: Run, tmp_path: Path) -> None:
@@ -100,7 +100,7 @@ def test_a_failed_pick_can_be_followed_by_an_observation(run: Run, tmp_path: Pat
 
 
 def test_simulate_prints_one_line_of_json(run: Run) -> None:
-    arguments = ("simulate", "unambiguous", "--planner", "never", "--episodes", 300, "--seed", 5, "--json")
+    arguments = ("simulate", "unambiguous", "--planner", "paper-never", "--episodes", 300, "--seed", 5, "--json")
     code, out, _ = run(*arguments)
     summary = json.loads(out)
     assert code == 0
@@ -178,7 +178,7 @@ def test_bad_arguments_end_with_code_2(run: Run, tmp_path: Path) -> None:
     assert run("simulate", "nowhere")[0] == 2
     assert run("simulate", "ambiguous", "--planner", "best")[0] == 2
     assert run("simulate", "ambiguous", "--depth", 0)[0] == 2
-    assert run("simulate", "ambiguous", "--planner", "always", "--depth", 3)[0] == 2
+    assert run("simulate", "ambiguous", "--planner", "paper-always", "--depth", 3)[0] == 2
     assert run("filter", tmp_path / "missing.jsonl")[0] == 2
     (tmp_path / "latin.jsonl").write_bytes(b'{"scene": "caf\xe9"}\n')
     code, _, err = run("filter", tmp_path / "latin.jsonl")

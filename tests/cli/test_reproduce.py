@@ -37,7 +37,7 @@ people = 2
 trials = 1
 [study.paradigms]
 never = {planner = "threshold", pick = 0.4}
-always = "always"
+always = "paper-always"
 fetch = {planner = "threshold", pick = 0.8}
 """
 

@@ -8,13 +8,24 @@ from tests.cli.conftest import Run
 
 
 def test_planners_are_scored_and_repeat_by_seed(run: Run) -> None:
-    arguments = ("robocup", "--games", 5, "--planner", "never", "--planner", "always", "--seed", 2, "--json")
+    arguments = (
+        "robocup",
+        "--games",
+        5,
+        "--planner",
+        "paper-never",
+        "--planner",
+        "paper-always",
+        "--seed",
+        2,
+        "--json",
+    )
     code, out, _ = run(*arguments)
     result = json.loads(out)
     assert code == 0
     assert (result["games"], result["seed"], result["rules"]["question"]) == (5, 2, -150)
     never, always = result["planners"]
-    assert (never["planner"], always["planner"]) == ("never", "always")
+    assert (never["planner"], always["planner"]) == ("paper-never", "paper-always")
     assert never["questions"] == 0
     assert always["questions"] >= 1
     assert run(*arguments)[1] == out

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import socket
+import subprocess
+import sys
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
@@ -92,6 +96,40 @@ def test_a_study_has_a_database_and_no_folder(run: Run, tmp_path: Path) -> None:
     assert (code, error.startswith("fetch-pomdp: --data: a study is kept in its database")) == (2, True)
     code, _, error = run("serve", "--study", study, "--researcher-token", "short")
     assert (code, error) == (2, "fetch-pomdp: --researcher-token: found 5 characters, expected 16 or more\n")
+
+
+def test_a_preview_is_of_a_study_and_has_no_database(run: Run, tmp_path: Path) -> None:
+    assert run("serve", "--preview")[2] == "fetch-pomdp: --preview needs --study\n"
+    study = str(small_study(tmp_path))
+    code, _, error = run("serve", "--study", study, "--preview", "--database", "sqlite:///kept.db")
+    assert (code, error.startswith("fetch-pomdp: --database: a preview keeps nothing")) == (2, True)
+
+
+def free_port() -> int:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        return int(taken.getsockname()[1])
+
+
+def test_a_preview_leaves_nothing_behind(tmp_path: Path) -> None:
+    """The server as a process of its own, which Ctrl-C ends."""
+    study, temporary = small_study(tmp_path), tmp_path / "tmp"
+    temporary.mkdir()
+    command = [sys.executable, "-m", "fetch_pomdp", "serve", "--study", str(study), "--preview"]
+    command += ["--port", str(free_port())]
+    server = subprocess.Popen(
+        command, cwd=tmp_path, env={**os.environ, "TMPDIR": str(temporary)}, stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert server.stdout is not None
+        lines = [server.stdout.readline() for _ in range(3)]
+        assert lines[2].startswith("A preview: no place is taken")
+        assert len(list(temporary.glob("fetch-pomdp-preview-*/preview.db"))) == 1
+    finally:
+        server.send_signal(signal.SIGINT)
+        server.wait(timeout=60)
+    assert not list(temporary.glob("fetch-pomdp-*"))
+    assert not (tmp_path / "participants.db").exists()
 
 
 def test_a_study_that_was_changed_is_refused_under_its_name(run: Run, tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ CONFIG = """
 people = 4
 trials = 1
 [paradigms]
-always = "always"
+always = "paper-always"
 quick = {planner = "threshold", pick = 0.8}
 """
 
@@ -90,6 +90,6 @@ def test_a_study_can_be_stopped_by_hand(
     monkeypatch.setattr(experiment, "play", interrupted)
     code, _, told = run("study", "--config", config, "--out", tmp_path / "out", "--workers", 1)
     assert code == 130
-    assert "stopped; the same command goes on from there" in told
+    assert "stopped; run the same command again to go on" in told
     assert "3/48" in told
     assert len(read_table(tmp_path / "out")) == 3

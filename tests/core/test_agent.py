@@ -21,7 +21,7 @@ from fetch_pomdp.core.language.phrases import Answers
 from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import SparseSampling
 from fetch_pomdp.core.ports import Outcome
@@ -98,7 +98,7 @@ def test_what_is_no_evidence_is_given_back_beside_it(said: str, meaning: Meaning
 @pytest.mark.parametrize("model", [{}, {"turns": {}}])
 def test_who_wants_nothing_any_more_begins_anew(model: dict[str, object]) -> None:
     prior = [0.3, 0.3, 0.1, 0.1, 0.1, 0.1]
-    agent, other = (Agent("ambiguous", AlwaysAsk(), model=model, prior=prior) for _ in range(2))
+    agent, other = (Agent("ambiguous", PaperAlwaysAsk(), model=model, prior=prior) for _ in range(2))
     agent.observe("marker")
     agent.did(Point(2))
     assert agent.observe("schon gut") == Utterance(meaning=Meaning.CANCEL)
@@ -113,7 +113,7 @@ def test_who_wants_nothing_any_more_begins_anew(model: dict[str, object]) -> Non
 
 
 def test_an_agent_begins_with_its_prior_and_knows_what_it_handed_over() -> None:
-    agent = Agent("ambiguous", AlwaysAsk(), model={"turns": {}})
+    agent = Agent("ambiguous", PaperAlwaysAsk(), model={"turns": {}})
     agent.observe("marker")
     agent.did(Point(2))
     agent.did(Pick(3))
@@ -127,7 +127,7 @@ def test_an_agent_begins_with_its_prior_and_knows_what_it_handed_over() -> None:
     agent.take(Acted(Pick(4), Outcome.FAILED))
     assert agent.handed is None
     agent.take(Observed(Observation(("bowl",)), anew=True))
-    other = Agent("ambiguous", AlwaysAsk(), model={"turns": {}})
+    other = Agent("ambiguous", PaperAlwaysAsk(), model={"turns": {}})
     other.observe("bowl")
     assert agent.belief == pytest.approx(other.belief)
     assert (agent.asked, agent.phase) == (None, other.phase)
@@ -166,7 +166,7 @@ def test_a_question_asked_persists_until_the_next() -> None:
 
 
 def test_act_goes_on_as_if_done() -> None:
-    agent = Agent("ambiguous", AlwaysAsk())
+    agent = Agent("ambiguous", PaperAlwaysAsk())
     assert agent.act() == Wait()
     assert agent.asked is None
     agent.observe(head=(0.0, 0.0, 1.6), wrist=(-0.075, 3.2, 0.75))

@@ -19,13 +19,13 @@ from fetch_pomdp.core.explanation import Explanation
 from fetch_pomdp.core.observation import Parts
 from fetch_pomdp.core.phrases import Figure, Phrase, phrase
 from fetch_pomdp.core.planners.base import Decision, Planner, pick_values
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.scene import Scene
 from tests.tables import table
 
-PLANNERS = [ExactAnswers(width=5), ExactAnswers(depth=1), SparseSampling(), NeverAsk(), AlwaysAsk()]
+PLANNERS = [ExactAnswers(width=5), ExactAnswers(depth=1), SparseSampling(), PaperNeverAsk(), PaperAlwaysAsk()]
 NAN = math.nan
 
 
@@ -70,7 +70,7 @@ def test_the_numbers_are_those_of_the_decision(planner: Planner, said: list[str]
 
 
 def test_planners_explain_nothing_and_the_agent_does() -> None:
-    agent = Agent("ambiguous", NeverAsk())
+    agent = Agent("ambiguous", PaperNeverAsk())
     plain = agent.planner.decide(agent.problem, Belief.uniform(6), None, rng=np.random.default_rng((0, 0)))
     assert plain.explanation is None
     decision, why = explained(agent)
@@ -239,7 +239,7 @@ def test_a_planner_that_values_some_questions() -> None:
     ],
 )
 def test_prices_are_those_of_the_scene(rewards: dict[str, float], prices: str) -> None:
-    agent = Agent("ambiguous", AlwaysAsk(), rewards=rewards)
+    agent = Agent("ambiguous", PaperAlwaysAsk(), rewards=rewards)
     agent.observe("marker")
     assert str(explained(agent)[1]) == f"asks about marker-1: it and marker-2 are equally likely; {prices}"
 
@@ -254,7 +254,7 @@ def test_digits_follow_the_size_of_the_rewards() -> None:
 
 
 def test_a_thousand_items_stay_a_sentence() -> None:
-    agent = Agent(table([["cup"]] * 500 + [["pot"]] * 500, p_g=0.0).scene, AlwaysAsk())
+    agent = Agent(table([["cup"]] * 500 + [["pot"]] * 500, p_g=0.0).scene, PaperAlwaysAsk())
     agent.observe("cup")
     expected = "asks about item-0: it and 499 others are equally likely; a wrong pick costs 12.5, the question 6"
     assert str(explained(agent)[1]) == expected

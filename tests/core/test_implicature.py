@@ -8,7 +8,7 @@ from fetch_pomdp.core.action import Pick, Point
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.planners.catalogue import planner_named
 
-ASKING = ["exact", "sparse", "always"]
+ASKING = ["exact", "sparse", "paper-always"]
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -15,7 +15,7 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import random_state
 from fetch_pomdp.core.generative import State, step
 from fetch_pomdp.core.observation import Observation
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
 from fetch_pomdp.core.planners.kernels import NOBODY, Turn, answered, live_step, turn_of
 from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
@@ -331,7 +331,7 @@ def test_where_p_g_is_0_live_people_do_not_point_either() -> None:
 
 @pytest.mark.slow
 def test_plain_and_compiled_interactions_earn_the_same() -> None:
-    problem, planner = live(Problem(Scene.load("ambiguous"))), AlwaysAsk()
+    problem, planner = live(Problem(Scene.load("ambiguous"))), PaperAlwaysAsk()
     played = [
         run_episode(problem, planner, k % 6, np.random.default_rng((9, k)), np.random.default_rng(k))
         for k in range(1_500)

@@ -12,8 +12,8 @@ from numpy.random import Generator
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Decision, Planner, pick_values, unvalued
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.catalogue import PLANNERS
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
@@ -92,7 +92,7 @@ def test_simulated_interactions_end_alike() -> None:
 def test_a_number_of_episodes_or_a_seed_that_is_none() -> None:
     for episodes, seed in ((0, 0), (1, -1)):
         with pytest.raises(PlannerError):
-            simulate(PROBLEMS["ambiguous"], PLANNERS["always"](), episodes, seed)
+            simulate(PROBLEMS["ambiguous"], PLANNERS["paper-always"](), episodes, seed)
 
 
 @pytest.mark.parametrize("name", sorted(PLANNERS))
@@ -128,10 +128,10 @@ def test_every_item_is_desired_equally_often() -> None:
         (lambda: SparseSampling(depth=2, width=10), "unambiguous", 0.72, 0.06),
         (lambda: ExactAnswers(depth=2, width=10, leaf="pick"), "ambiguous", -0.75, 0.07),
         (lambda: ExactAnswers(depth=2, width=10, leaf="pick"), "unambiguous", 0.72, 0.06),
-        (NeverAsk, "ambiguous", -4.3, 0.1),
-        (NeverAsk, "unambiguous", -1.3, 0.1),
-        (AlwaysAsk, "ambiguous", -3.6, 0.1),
-        (AlwaysAsk, "unambiguous", -2.5, 0.1),
+        (PaperNeverAsk, "ambiguous", -4.3, 0.1),
+        (PaperNeverAsk, "unambiguous", -1.3, 0.1),
+        (PaperAlwaysAsk, "ambiguous", -3.6, 0.1),
+        (PaperAlwaysAsk, "unambiguous", -2.5, 0.1),
     ],
 )
 def test_mean_returns_measured_before(

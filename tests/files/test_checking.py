@@ -64,7 +64,7 @@ def test_every_fault_of_a_file_is_named_by_line_and_field(tmp_path: Path) -> Non
         "1: colour: unknown field", "1: model.sigma: found 9", "1: target: found 'cup'", "1: seed: found -1",
         "2: action: found 'grab'", "3: broken JSON", "4: outcome: found 'lost'", "4: item: found 'cup'",
         "4: t: found 'soon'", "5: observation.utterance: found 7", "5: observation.words[0].text: found ''",
-        "7: observation.wrist: found none", "8: t: found 1.5 after 5", "10: found an event after a pick that was done",
+        "7: observation.wrist: found none", "8: t: found 1.5 after 5", "10: found an event after the hand-over",
     ]  # fmt: skip
     assert len(found) == len(beginnings), found
     for message, beginning in zip(found, beginnings, strict=True):
@@ -224,11 +224,11 @@ def test_what_the_person_gave_back_is_no_decision(tmp_path: Path) -> None:
 
 
 def test_an_action_that_its_planner_would_not_take_is_named(tmp_path: Path) -> None:
-    lines = [{"scene": "ambiguous", "planner": "never"}, {"action": "point", "item": "bowl-1"}]
+    lines = [{"scene": "ambiguous", "planner": "paper-never"}, {"action": "point", "item": "bowl-1"}]
     path = written(tmp_path / "log.jsonl", lines)
     (found,) = differences(read_recording(path))
     assert str(found) == (
-        f"{path}:2: action: found point bowl-1, expected wait, which the recorded planner and seed decide"
+        f"{path}:2: action: found point bowl-1, expected wait, as the recorded planner decides with the recorded seed"
     )
 
 

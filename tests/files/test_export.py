@@ -145,7 +145,7 @@ def test_items_in_one_direction_leave_no_observation_without_a_chance(tmp_path: 
 def test_a_file_that_is_there_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "scene.pomdp"
     path.write_text("mine")
-    with pytest.raises(ExportError, match=r"scene\.pomdp: found a file there already, expected a new one"):
+    with pytest.raises(ExportError, match=r"scene\.pomdp: found an existing file, expected a new one"):
         written(tmp_path)
     assert path.read_text() == "mine"
     assert list(tmp_path.iterdir()) == [path]

@@ -28,7 +28,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     write_model(path, ["of a test"], {"sigma": (1 / 7, "rad"), "alpha": (0.3, "")})
     assert path.read_text().startswith("# of a test\n[model]\nsigma = 0.14285714285714285  # rad\n")
     assert with_model(SCENE, path).model == SCENE.model.with_changes({"sigma": 1 / 7, "alpha": 0.3})
-    with pytest.raises(ModelError, match="found a file there already"):
+    with pytest.raises(ModelError, match="found an existing file"):
         write_model(path, [], {})
     with pytest.raises(ModelError, match="cannot be written"):
         write_model(tmp_path / "none" / "model.toml", [], {})

@@ -21,7 +21,7 @@ from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation, sample
 from fetch_pomdp.core.planners.base import Decision
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.catalogue import DEFAULT
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
@@ -130,7 +130,7 @@ def test_a_log_on_disk_is_read_back(tmp_path: Path) -> None:
     assert recording.header == headers[1]
     assert list(recording.events) == written
     assert recording.over
-    with pytest.raises(EventError, match="found a file there already, expected a new one"):
+    with pytest.raises(EventError, match="found an existing file, expected a new one"):
         EventLog.create(path, headers[1])
     with pytest.raises(EventError, match=r"cannot be written: .*, expected a folder for it"):
         EventLog.create(tmp_path / "none" / "log.jsonl", headers[1])
@@ -220,7 +220,9 @@ def test_what_is_given_replaces_the_recorded_planner() -> None:
     header = headers[1]  # sparse, depth 3, seed 7
     assert header.agent().planner == SparseSampling(3)
     assert header.agent(width=4, depth=None).planner == SparseSampling(3, 4)
-    assert header.agent(planner="never").planner == NeverAsk(), "another planner's parameters are not its own"
+    assert header.agent(planner="paper-never").planner == PaperNeverAsk(), (
+        "another planner's parameters are not its own"
+    )
     assert header.agent(planner="exact", depth=2).planner == ExactAnswers(2)
     assert header.agent(seed=0).seed == 0
     assert header.agent().seed == 7
@@ -306,7 +308,10 @@ def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: 
     [
         ({}, "observation: found no such field"),
         ({"t": 1}, "observation: found no such field"),
-        ({"action": "wait", "observation": {}}, "action: found an observation too, expected a line for each"),
+        (
+            {"action": "wait", "observation": {}},
+            "action: found an action and an observation, expected one line for each",
+        ),
         ({"action": "grab"}, "action: found 'grab', expected one of wait, point, pick"),
         ({"action": None}, "action: found None"),
         ({"action": ["wait"]}, "action: found ['wait']"),
@@ -385,10 +390,10 @@ def test_only_its_return_and_another_request_follow_a_pick_that_was_done(
     with pytest.raises(EventError) as caught:
         read_recording(path)
     assert str(caught.value) == (
-        f"{path}:3: found an event after a pick that was done, expected the end, its return, or a request anew"
+        f"{path}:3: found an event after the hand-over, expected the end, its return, or a request anew"
     )
     again = written(tmp_path, [*HANDED, RETURNED, {"action": "wait"}, *HANDED[1:], ANEW, *HANDED[1:], following])
-    with pytest.raises(EventError, match=r"events.jsonl:8: found an event after a pick that was done"):
+    with pytest.raises(EventError, match=r"events.jsonl:8: found an event after the hand-over"):
         read_recording(again)
     if following.get("outcome") != "returned":
         refused: dict[str, Any] = {"action": "pick", "item": "bowl-1", "outcome": "failed"}

@@ -54,7 +54,7 @@ def test_a_new_file_is_whole_or_not_there(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
     write_new(tmp_path / "new.txt", ["grün"], ModelError)
     assert (tmp_path / "new.txt").read_bytes() == "grün\n".encode()
-    with pytest.raises(ModelError, match="found a file there already"):
+    with pytest.raises(ModelError, match="found an existing file"):
         write_new(tmp_path / "new.txt", lines, ModelError)
 
 

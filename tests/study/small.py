@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.design import Paradigm, Study
 from fetch_pomdp.study.people.parameters import People
 
 PARADIGMS = {
-    "sure": Paradigm(planner="always", parameters={"confidence": 0.9}),
+    "sure": Paradigm(planner="paper-always", parameters={"confidence": 0.9}),
     "quick": Paradigm(planner="threshold", parameters={"pick": 0.8}),
 }
 
@@ -26,5 +26,5 @@ def row(count: int) -> Scene:
 
 def small(**changes: Any) -> Study:
     layouts: Mapping[str, Scene] = {"near": row(2), "far": row(3)}
-    plain = {"population": People(), "clock": Clock()}
+    plain = {"population": People(), "clock": Durations()}
     return Study(**{"people": 2, "trials": 1, "layouts": layouts, "paradigms": PARADIGMS, **plain, **changes})

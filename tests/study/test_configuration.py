@@ -12,7 +12,7 @@ import pytest
 from fetch_pomdp.core.language.phrases import Answers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.configuration import difference, digest, load_study, to_plain
 from fetch_pomdp.study.design import PAPER, Paradigm, Study
 from fetch_pomdp.study.people.parameters import People
@@ -35,7 +35,7 @@ point = -5.0
 speak = 0.5
 
 [paradigms]
-never = "never"
+never = "paper-never"
 
 [paradigms.deep]
 planner = "sparse"
@@ -69,9 +69,9 @@ def test_a_file_says_all_that_a_study_is(tmp_path: Path) -> None:
     assert (study.people, study.trials, study.seed, study.logs) == (4, 2, 7, True)
     assert list(study.layouts) == ["unambiguous", "kitchen"]
     assert study.population == People(patience=5.0)
-    assert study.clock == Clock(speak=0.5)
+    assert study.clock == Durations(speak=0.5)
     assert study.paradigms == {
-        "never": Paradigm(planner="never"),
+        "never": Paradigm(planner="paper-never"),
         "deep": Paradigm(planner="sparse", parameters={"depth": 3}, rewards={"wait": -0.5}),
     }
     scene = study.scene("kitchen", "deep")
@@ -162,7 +162,12 @@ def changes() -> dict[str, dict[str, Any]]:
 
 
 def test_a_study_without_answers_of_its_own_has_the_digest_it_had_before_there_were_any() -> None:
-    assert digest(to_plain(Study())) == "c1e73b0dea78d70a"
+    """Of the paradigms under the names they had then: "never" and "always" were the paper's."""
+    paradigms = {
+        name: Paradigm(planner=planner)
+        for name, planner in (("never", "never"), ("always", "always"), ("fetch", "sparse"))
+    }
+    assert digest(to_plain(Study(paradigms=paradigms))) == "c1e73b0dea78d70a"
 
 
 @pytest.mark.parametrize("place", changes())

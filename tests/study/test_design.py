@@ -22,7 +22,7 @@ def test_every_item_comes_equally_often_with_every_paradigm(
     people: int, trials: int, seed: int, sizes: list[int], robots: int
 ) -> None:
     layouts = {f"layout-{index}": row(size) for index, size in enumerate(sizes)}
-    paradigms = {f"robot-{index}": Paradigm(planner="always") for index in range(robots)}
+    paradigms = {f"robot-{index}": Paradigm(planner="paper-always") for index in range(robots)}
     study = Study(people=people, trials=trials, seed=seed, layouts=layouts, paradigms=paradigms)
     found = list(assignments(study))
     assert len(found) == study.size
@@ -74,7 +74,7 @@ def test_no_two_streams_are_the_same() -> None:
 
 
 def test_a_paradigm_has_beliefs_and_prices_of_its_own() -> None:
-    patient = Paradigm(planner="always", rewards={"wait": -0.5}, model={"sigma": 0.3})
+    patient = Paradigm(planner="paper-always", rewards={"wait": -0.5}, model={"sigma": 0.3})
     study = small(paradigms={**PARADIGMS, "patient": patient})
     assert study.scene("near", "patient").rewards.wait == -0.5
     assert study.scene("near", "patient").model.sigma == 0.3
@@ -108,6 +108,6 @@ def test_a_paradigm_is_refused_for_what_it_cannot_do() -> None:
     with pytest.raises(StudyError, match="budget of time"):
         Paradigm(planner="fitted", parameters={"budget_ms": 5.0})
     with pytest.raises(ModelError) as refused:
-        small(paradigms={"odd": Paradigm(planner="always", model={"sigmas": 1.0})})
+        small(paradigms={"odd": Paradigm(planner="paper-always", model={"sigmas": 1.0})})
     assert isinstance(refused.value, InputError)
     assert refused.value.field == "paradigms.odd.model.sigmas"

@@ -11,19 +11,19 @@ from numpy.random import default_rng
 from fetch_pomdp.core.action import Pick, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Observed
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.encounter import Encounter, encounter
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.trial import Assignment, scored
 
 from .people.plain import still
 
-CLOCK = Clock()
+CLOCK = Durations()
 AMBIGUOUS, UNAMBIGUOUS = Scene.load("ambiguous"), Scene.load("unambiguous")
 
 
@@ -48,13 +48,13 @@ def test_the_same_seed_gives_the_same_events(seed: int) -> None:
 
 def test_people_without_errors_get_what_they_want_from_every_paradigm() -> None:
     traits = still(descriptors=(0.0, 0.0, 1.0), reach=0.65).traits(default_rng(0))
-    for planner in (NeverAsk(), AlwaysAsk(), ExactAnswers()):
+    for planner in (PaperNeverAsk(), PaperAlwaysAsk(), ExactAnswers()):
         for desired, item in enumerate(UNAMBIGUOUS.items):
             found = encounter(Agent(UNAMBIGUOUS, planner), desired, traits, CLOCK, default_rng(1))
             trial = scored(Assignment(0, "unambiguous", "any", item.id, 0), found.events, UNAMBIGUOUS, found.begun)
             assert trial.correct
             assert 0.0 < trial.time < 20.0
-            assert trial.questions >= isinstance(planner, AlwaysAsk)
+            assert trial.questions >= isinstance(planner, PaperAlwaysAsk)
 
 
 def test_a_pick_before_the_request_took_no_time() -> None:
@@ -72,7 +72,7 @@ def test_a_misheard_yes_makes_the_always_asking_robot_ask_again() -> None:
     heard = {"clear": still(descriptors=(0.0, 0.0, 1.0)).traits(default_rng(0)), "misheard": traits}
     questions = {}
     for name, person in heard.items():
-        found = encounter(Agent(AMBIGUOUS, AlwaysAsk()), 3, person, CLOCK, default_rng(4))
+        found = encounter(Agent(AMBIGUOUS, PaperAlwaysAsk()), 3, person, CLOCK, default_rng(4))
         questions[name] = sum(isinstance(e, Acted) and type(e.action).__name__ == "Point" for e in found.events)
         words = {word for e in found.events if isinstance(e, Observed) for word in e.observation.words}
         assert ("hand" in words and "yes" not in words) or name == "clear"
@@ -84,7 +84,7 @@ def test_the_bias_of_a_person_is_in_all_their_trials() -> None:
     traits = dataclasses.replace(still().traits(default_rng(0)), bias=(0.05, 0.0))
     angles = []
     for desired in range(6):
-        found = encounter(Agent(UNAMBIGUOUS, NeverAsk()), desired, traits, CLOCK, default_rng(desired))
+        found = encounter(Agent(UNAMBIGUOUS, PaperNeverAsk()), desired, traits, CLOCK, default_rng(desired))
         rays = [e.observation.ray for e in found.events if isinstance(e, Observed) and e.observation.ray]
         aim = np.subtract(UNAMBIGUOUS.items[desired].position, UNAMBIGUOUS.head)
         arm = np.subtract(rays[-1].wrist, rays[-1].head)

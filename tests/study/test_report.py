@@ -71,7 +71,7 @@ def test_pictures_have_words_and_tables_have_headers(folder: Path) -> None:
     page = Page((folder / "report.html").read_text(encoding="utf-8"))
     assert len(page.all("img")) == 4
     assert all(len(image["alt"] or "") > 20 for image in page.all("img"))
-    assert len(page.all("caption")) == len(page.all("table")) == 3
+    assert len(page.all("caption")) == len(page.all("table")) == 4
     assert {heading.get("scope") for heading in page.all("th")} == {"col", "row"}
     assert page.all("html")[0]["lang"] == "en"
 
@@ -195,3 +195,18 @@ def test_questions_are_shares_of_trials() -> None:
     whole = checked(trials)
     axis = plots.questions(whole, cells(whole, Plan())).axes[0]
     assert [bar.get_height() for bar in axis.patches] == pytest.approx([20, 40, 0, 0, 40])
+
+
+def test_the_report_shows_what_order_does(tmp_path: Path) -> None:
+    """Six trials of each of two persons: the first third takes 9 s, the second 6, the last 3; one is wrong at first."""
+    rows = []
+    for person in range(2):
+        times = [9.0, 9.0, 6.0, 6.0, 3.0, 3.0]
+        names = ["never", "always", "fetch"] * 2
+        rows += [(person, name, time, time < 9.0) for name, time in zip(names, times, strict=True)]
+    trials = table(rows)
+    trials["order"] = list(range(6)) * 2
+    text = write_report(trials, tmp_path, QUICK).read_text()
+    part = text[text.index("Order of the trials") :]
+    found = re.findall(r"<td>(.*?)</td>", part[: part.index("</table>")])
+    assert [found[start : start + 2] for start in (0, 3, 6)] == [["9.00", "0.0"], ["6.00", "100.0"], ["3.00", "100.0"]]

@@ -17,7 +17,7 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision, unvalued
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import ModelError, StudyError
 from fetch_pomdp.study.robocup.contest import Contest, play_group, without
@@ -209,15 +209,15 @@ def test_a_wrong_guess_takes_its_item_out(belief: list[float], guessed: Sequence
 
 def test_live_people_are_refused() -> None:
     with pytest.raises(ModelError, match=r"^turns: found live people, expected none: Hand Me That knows [^\n]*$"):
-        play_group(live(twins(2)), NeverAsk(), 0, Silent([]), default_rng(0))
+        play_group(live(twins(2)), PaperNeverAsk(), 0, Silent([]), default_rng(0))
 
 
 def test_games_repeat_by_seed_and_planners_meet_the_same_groups() -> None:
     contest = Contest(games=12, seed=4)
-    first, twin = contest.standings({"a": NeverAsk(), "b": NeverAsk()})
+    first, twin = contest.standings({"a": PaperNeverAsk(), "b": PaperNeverAsk()})
     assert dataclasses.replace(twin, planner="a") == first
-    assert contest.standings({"a": NeverAsk()}) == [first]
-    assert Contest(games=12, seed=5).standings({"a": NeverAsk()}) != [first]
+    assert contest.standings({"a": PaperNeverAsk()}) == [first]
+    assert Contest(games=12, seed=5).standings({"a": PaperNeverAsk()}) != [first]
     assert first.games == 12
     assert first.questions == 0
     assert 0 < first.mean_score <= 2500
@@ -225,7 +225,7 @@ def test_games_repeat_by_seed_and_planners_meet_the_same_groups() -> None:
 
 def test_groups_of_one_object_are_won_at_once() -> None:
     alone = Rules(least_items=1, most_items=1)
-    (standing,) = Contest(games=3, rules=alone).standings({"never": NeverAsk()})
+    (standing,) = Contest(games=3, rules=alone).standings({"never": PaperNeverAsk()})
     assert (standing.mean_score, standing.standard_error, standing.first) == (2500.0, 0.0, 1.0)
 
 

@@ -93,7 +93,7 @@ def _write(out: Path, found: Calibration, of_turns: list[Interaction]) -> None:
             f"{one.name} {one.value:.4f} rad, {one.low:.4f} to {one.high:.4f}: the model has none."
             for one in found.bias
         ),
-        *(f"{name} is not bounded from both sides: that would take {what}." for name, what in found.unknown().items()),
+        *(f"{name} has no bound on one side; to find one would take {what}." for name, what in found.unknown().items()),
     ]
     told = {one.name: one for one in found.estimates if one.known != "none"}
     values = {name: (one.value, _range(one)) for name, one in told.items()}
@@ -160,7 +160,7 @@ def _show(
         table.add_row(offset.name, f"{offset.value:.4g} rad", f"{offset.low:.4g} to {offset.high:.4g}", "")
     console.print(table)
     for name, what in found.unknown().items():
-        console.print(f"{name} is not bounded from both sides: that would take {what}")
+        console.print(f"{name} has no bound on one side; to find one would take {what}")
     if people:
         console.print(_each(people))
     for scene, (base, ordered) in limiting.items():

@@ -14,7 +14,7 @@ from numba.core import event
 from fetch_pomdp.cli.interrupts import ending_at_once
 
 PATIENCE = 1.5  # s of compiling before a user is told why nothing happens
-MESSAGE = "Compiling the planner, once after installation where its cache can be written: up to half a minute ..."
+MESSAGE = "Compiling the planner: up to half a minute, after an installation only once if its cache can be written ..."
 
 
 class Watch(event.Listener):

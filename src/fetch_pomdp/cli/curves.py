@@ -31,15 +31,17 @@ Config = Annotated[
     typer.Option(metavar="F.toml", help="The study that is varied (docs/study.md).  [default: the paper's]"),
 ]
 Workers = Annotated[int, typer.Option(min=0, help="Processes; 0: one a core.")]
-Backend = Annotated[str, typer.Option(help="Who does the work: loky, threading, dask or ray.")]
-Address = Annotated[str | None, typer.Option(help="Of a Dask or Ray cluster that is there already.")]
+Backend = Annotated[str, typer.Option(help="What runs trials side by side: loky, threading, dask or ray.")]
+Address = Annotated[str | None, typer.Option(help="Address of a running Dask or Ray cluster.")]
 DPI = 110
 
 
 def curves(
     config: Config = None,
     curve: Annotated[list[str] | None, typer.Option(help=f"Repeatable: {', '.join(CURVES)}.  [default: all]")] = None,
-    trials: Annotated[int, typer.Option(min=2, help="Of each paradigm at each point and layout, at least.")] = 240,
+    trials: Annotated[
+        int, typer.Option(min=2, help="Trials of each paradigm at each point and layout, at least.")
+    ] = 240,
     seed: Seed = None,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Where trials, curves.csv and pictures go.")] = Path(
         "curves"
@@ -65,8 +67,12 @@ def curves(
 
 def price_lists(
     config: Config = None,
-    trials: Annotated[int, typer.Option(min=2, help="Of each setting and layout in the search, at least.")] = 480,
-    fresh: Annotated[int, typer.Option(min=2, help="Of each of two robots and layout in the check, at least.")] = 4800,
+    trials: Annotated[
+        int, typer.Option(min=2, help="Trials of each setting and layout in the search, at least.")
+    ] = 480,
+    fresh: Annotated[
+        int, typer.Option(min=2, help="Trials of each of the two robots and layouts in the check, at least.")
+    ] = 4800,
     seed: Seed = None,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Where trials, tables and a picture go.")] = Path("prices"),
     workers: Workers = 0,
@@ -91,7 +97,7 @@ def price_lists(
     _draw(curve_plots.plane(prices.cell_table(searched), found, list(PAPER)), out / "prices")
     if found is None:
         claim = f"faster than {prices.SYSTEM} and as accurate in every layout, and more accurate in one"
-        print(f"Of {len(chosen) - 1} settings none was {claim}.")
+        print(f"None of {len(chosen) - 1} settings was {claim}.")
         return
     print(f"Best of {len(chosen) - 1} settings: {found}")
     checked = _played([prices.final(study, found, fresh)], out, crew)

@@ -52,7 +52,7 @@ Skeleton = Annotated[
 ]
 Log = Annotated[Path | None, typer.Option(metavar="OUT.jsonl", help="Write what happens to a new file, as it happens.")]
 
-Target = Annotated[str | None, typer.Option(metavar="ID", help="For the log: the item that is really desired.")]
+Target = Annotated[str | None, typer.Option(metavar="ID", help="For the log: the item that the person wants.")]
 Person = Annotated[int | None, typer.Option(min=0, help="For the log: number of the person.")]
 Order = Annotated[int | None, typer.Option(min=0, help="For the log: place among the person's trials, from 0.")]
 Paradigm = Annotated[str | None, typer.Option(metavar="NAME", help="For the log: the study's name of this robot.")]

@@ -19,7 +19,7 @@ from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.recordings import Recording, read_recording
 from fetch_pomdp.study.from_logs import trials_of
 
-app = typer.Typer(help="Check recorded interactions, and live through them again.", no_args_is_help=True)
+app = typer.Typer(help="Check and replay recorded interactions.", no_args_is_help=True)
 
 Logs = Annotated[list[Path], typer.Argument(metavar="LOG...", help="Recorded interactions (docs/events.md).")]
 Log = Annotated[Path, typer.Argument(metavar="LOG", help="A recorded interaction (docs/events.md).")]
@@ -39,7 +39,7 @@ def check(logs: Logs, replay: Replay = False) -> None:
         for fault in faults:
             print(fault, file=sys.stderr)
     if faulty:
-        print(f"{faulty} of {counted(len(logs), 'file')} with faults", file=sys.stderr)
+        print(f"{faulty} of {counted(len(logs), 'file')} had faults", file=sys.stderr)
         raise typer.Exit(2)
 
 
@@ -51,7 +51,7 @@ def _faults(path: Path, *, replay: bool) -> list[InputError]:
             faults += differences(Recording(found.header, found.events, found.documents, found.torn))
     except InputError as error:
         return [error]
-    torn = "" if found.torn is None else f"; line {found.torn} is half-written and left out"
+    torn = "" if found.torn is None else f"; line {found.torn} is incomplete and was left out"
     if not faults:
         print(f"{path}: ok, {counted(len(found.events), 'event')}{torn}")
     elif torn:

@@ -60,7 +60,7 @@ def _read(path: Path) -> Recording:
     """Return a recorded interaction; say on standard error what was left out of it."""
     recording = read_recording(path)
     if recording.torn is not None:
-        print(f"fetch-pomdp: {path}:{recording.torn}: left out: this last line is half-written", file=sys.stderr)
+        print(f"fetch-pomdp: {path}:{recording.torn}: this last line is incomplete and was left out", file=sys.stderr)
     return recording
 
 
@@ -87,9 +87,7 @@ def decide(
     """
     recording = _read(events)
     if recording.over:
-        raise EventError(
-            "found a pick that was done, expected an interaction that is still going on", source=str(events)
-        )
+        raise EventError("found an interaction that is over, expected one that is still going on", source=str(events))
     header = _under(recording.header, model)
     agent = header.agent(planner=planner, seed=seed, depth=depth, width=width, budget_ms=budget)
     for _ in recording.replay(agent):

@@ -30,7 +30,9 @@ DATABASE = "sqlite:///participants.db"
 Database = Annotated[
     str, typer.Option(metavar="URL", help="sqlite:///FILE or postgresql://USER:PASSWORD@HOST/DATABASE.")
 ]
-StudyName = Annotated[str | None, typer.Option("--study", metavar="NAME", help="Where the database has several.")]
+StudyName = Annotated[
+    str | None, typer.Option("--study", metavar="NAME", help="Name of the study, if the database has several.")
+]
 
 
 @app.command("list")
@@ -74,7 +76,7 @@ def export(
 
 @app.command()
 def forget(
-    code: Annotated[str, typer.Argument(metavar="CODE", help="As it was shown to the person, such as K7Q-2MP.")],
+    code: Annotated[str, typer.Argument(metavar="CODE", help="The code that the person was shown, such as K7Q-2MP.")],
     database: Database = DATABASE,
 ) -> None:
     """Delete everything that is kept of one person, at once."""

@@ -20,5 +20,5 @@ def trials_bar(total: int) -> Iterator[Callable[[int], None]]:
         try:
             yield lambda count: bar.update(task, completed=count)
         except KeyboardInterrupt:
-            bar.console.print("stopped; the same command goes on from there")
+            bar.console.print("stopped; run the same command again to go on")
             raise typer.Exit(130) from None

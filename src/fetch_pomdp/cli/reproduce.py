@@ -19,7 +19,9 @@ from fetch_pomdp.study.reproduce.stories import tell
 from fetch_pomdp.study.reproduce.targets import Targets
 from fetch_pomdp.study.reproduce.words import markdown, outcome, stories_head
 
-TargetsFile = Annotated[Path, typer.Option(metavar="F.toml", help="The cells, and what may be changed for them.")]
+TargetsFile = Annotated[
+    Path, typer.Option(metavar="F.toml", help="The cells, and the parameters that a search may change.")
+]
 Config = Annotated[Path, typer.Option(metavar="F.toml", help="The study, with its people and clock (docs/study.md).")]
 Workers = Annotated[int, typer.Option(min=0, help="Processes; 0: one a core.")]
 TARGETS, FITTED, SEED = Path("studies/paper.toml"), Path("studies/fitted.toml"), 2017
@@ -29,9 +31,9 @@ def fit(
     targets: TargetsFile = TARGETS,
     budget: Annotated[int, typer.Option(min=8, help="Evaluations, of about 2000 to 5000 interactions each.")] = 100,
     seed: Seed = None,
-    out: Annotated[Path, typer.Option(metavar="F.toml", help="Where the people go; the study beside them.")] = Path(
-        "people.toml"
-    ),
+    out: Annotated[
+        Path, typer.Option(metavar="F.toml", help="File to write the people to; the study is written beside it.")
+    ] = Path("people.toml"),
     workers: Workers = 1,
 ) -> None:
     """Search for people and a clock that give the paper's cells; writes them, and a study of them (fitted.toml).
@@ -73,7 +75,7 @@ def stories(
     seed: Seed = None,
     workers: Workers = 1,
 ) -> None:
-    """Print what kinds of error do to the cells, and so which makes the always-asking robot as wrong as the paper's."""
+    """Print how kinds of error change the cells, and which makes the always-asking robot as wrong as the paper's."""
     wanted = Targets.load(targets)
     print(stories_head(wanted))
     for told in tell(wanted, load_study(config), people, SEED if seed is None else seed, Crew(workers=workers)):

@@ -16,7 +16,7 @@ from fetch_pomdp.core.planners.catalogue import PLANNERS, planner_named
 from fetch_pomdp.study.robocup.contest import Contest, Standing
 from fetch_pomdp.study.robocup.operators import Guests
 
-SCORED = ("fitted", "sparse", "never", "always")
+SCORED = ("fitted", "sparse", "paper-never", "paper-always")
 
 Planners = Annotated[
     list[str] | None,

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import ipaddress
 import logging
 import secrets
-from collections.abc import Mapping
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -43,7 +46,13 @@ ResearcherToken = Annotated[
     str | None, typer.Option(metavar="TOKEN", help="The token that the researcher's page needs.  [default: a new one]")
 ]
 
+Preview = Annotated[
+    bool, typer.Option("--preview", help="Walk through the study: no place is taken, and nothing is kept at the end.")
+]
+
 BEGINNING = "ambiguous"
+DATABASE_FILE = "preview.db"
+PREVIEW = {"en": "Preview", "de": "Vorschau"}  # before the title of a study that is walked through
 SHORTEST_TOKEN = 16
 
 
@@ -58,6 +67,7 @@ def serve_page(
     study: StudyFile = None,
     database: Database = None,
     researcher_token: ResearcherToken = None,
+    preview: Preview = False,
 ) -> None:
     """Open a page on which people talk to the robot, type to it and point. Stop with Ctrl-C.
 
@@ -71,21 +81,25 @@ def serve_page(
 
     _check_token(token, "--token", None if _is_loopback(host) else host)
     _check_token(researcher_token, "--researcher-token")
-    _check_combination(scene, study, {"--data": data, "--database": database, "--researcher-token": researcher_token})
+    given = {"--data": data, "--database": database, "--researcher-token": researcher_token}
+    _check_combination(scene, study, given, preview=preview)
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
     config, speech = ServerConfig(scene=scene_asked_for(scene), token=token), speech_if_installed()
     addresses = [f"The robot is at {address_of(host, port, '', token)}  (Ctrl-C ends it)"]
     opener: ConversationOpener | StudyApp
-    if study is None:
-        opener = ConversationOpener(data, insight=not no_insight, speech=speech)
-        app = create_app(config, opener, voice=speech.voice)
-    else:
-        secret = researcher_token or secrets.token_urlsafe(24)
-        opener = _study_app(study, database, secret, speech)
-        app = create_app(config, opener, voice=speech.voice, routes=opener.routes())
-        addresses.append(f"The researcher's page is {address_of(host, port, 'researcher.html', secret)}")
-    ready = partial(print, *addresses, sep="\n", flush=True)
-    serve(app, host, port, ready=ready, warm_up=opener.warm_up)
+    with _kept_at(database, preview=preview) as url:
+        if study is None:
+            opener = ConversationOpener(data, insight=not no_insight, speech=speech)
+            app = create_app(config, opener, voice=speech.voice)
+        else:
+            secret = researcher_token or secrets.token_urlsafe(24)
+            opener = _study_app(study, url, secret, speech, preview=preview)
+            app = create_app(config, opener, voice=speech.voice, routes=opener.routes())
+            addresses.append(f"The researcher's page is {address_of(host, port, 'researcher.html', secret)}")
+            if preview:
+                addresses.append("A preview: no place is taken, and all of it is deleted at the end.")
+        ready = partial(print, *addresses, sep="\n", flush=True)
+        serve(app, host, port, ready=ready, warm_up=opener.warm_up)
 
 
 def address_of(host: str, port: int, page: str, token: str | None) -> str:
@@ -94,25 +108,42 @@ def address_of(host: str, port: int, page: str, token: str | None) -> str:
     return f"http://{shown}:{port}/{page}" + (f"#token={quote(token, safe='')}" if token else "")
 
 
-def _check_combination(scene: str, study: Path | None, options: Mapping[str, object]) -> None:
+def _check_combination(scene: str, study: Path | None, options: Mapping[str, object], *, preview: bool) -> None:
     """Raise InputError for options that do not go together."""
+    if preview and study is None:
+        raise InputError("--preview needs --study")
+    if preview and options["--database"] is not None:
+        raise InputError("a preview keeps nothing; leave this out with --preview", field="--database")
     if study is None:
         for name in ("--database", "--researcher-token"):
             if options[name] is not None:
                 raise InputError(f"{name} needs --study")
     elif scene != BEGINNING:
-        raise InputError("a study has its own scenes; leave this out beside --study", field="SCENE")
+        raise InputError("a study has its own scenes; leave this out with --study", field="SCENE")
     elif options["--data"] is not None:
-        raise InputError("a study is kept in its database; leave this out beside --study", field="--data")
+        raise InputError("a study is kept in its database; leave this out with --study", field="--data")
 
 
-def _study_app(study: Path, database: str | None, token: str, speech: Speech) -> StudyApp:
+@contextmanager
+def _kept_at(database: str | None, *, preview: bool) -> Iterator[str]:
+    """Yield the URL of the participants' database; that of a preview is deleted at the end."""
+    if not preview:
+        yield database or DATABASE
+        return
+    with tempfile.TemporaryDirectory(prefix="fetch-pomdp-preview-", ignore_cleanup_errors=True) as folder:
+        yield f"sqlite:///{folder}/preview.db"
+
+
+def _study_app(study: Path, database: str, token: str, speech: Speech, *, preview: bool) -> StudyApp:
     from fetch_pomdp.user_study.app import StudyApp
     from fetch_pomdp.user_study.config import load_user_study
     from fetch_pomdp.user_study.store.store import Store
 
     config = load_user_study(study)
-    return StudyApp(config, Store.open(database or DATABASE), token, speech=speech)
+    if preview:
+        title = {language: f"{PREVIEW[language]}: {words}" for language, words in config.title.items()}
+        config = dataclasses.replace(config, title=title)
+    return StudyApp(config, Store.open(database), token, speech=speech)
 
 
 def _check_token(token: str | None, field: str, host: str | None = None) -> None:

@@ -50,15 +50,17 @@ def study(
     ] = None,
     people: Annotated[int | None, typer.Option(min=1, help="How many people take part.  [default: 16]")] = None,
     seed: Seed = None,
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Where the trials go, or are already.")] = FOLDER,
+    out: Annotated[
+        Path, typer.Option(metavar="DIR", help="Folder of the trials: a new one, or one to go on with.")
+    ] = FOLDER,
     model: ModelFile = None,
     logs: Annotated[bool, typer.Option("--logs", help="Keep every interaction, event by event, in DIR/logs.")] = False,
     real_speech: Annotated[
         bool, typer.Option("--real-speech", help="Say every word with espeak-ng and hear it with PocketSphinx.")
     ] = False,
     workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one a core.")] = 0,
-    backend: Annotated[str, typer.Option(help="Who does the work: loky, threading, dask or ray.")] = "loky",
-    address: Annotated[str | None, typer.Option(help="Of a Dask or Ray cluster that is there already.")] = None,
+    backend: Annotated[str, typer.Option(help="What runs trials side by side: loky, threading, dask or ray.")] = "loky",
+    address: Annotated[str | None, typer.Option(help="Address of a running Dask or Ray cluster.")] = None,
     json_lines: Json = False,
 ) -> None:
     """Run a study with simulated people, and print its times and accuracies.
@@ -85,7 +87,7 @@ def study(
 @app.command()
 def report(
     trials: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Of a study; or a table of trials, .jsonl, .csv or .parquet.")
+        Path, typer.Argument(metavar="DIR", help="Folder of a study, or a table of trials: .jsonl, .csv or .parquet.")
     ],
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Where the report goes.  [default: report, beside the trials]")

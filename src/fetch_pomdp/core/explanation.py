@@ -17,7 +17,7 @@ CERTAIN = 0.9995  # belief that would be printed as 100.0%
 
 
 @dataclass(frozen=True, slots=True)
-class Option:
+class Alternative:
     """An action, its expected return, and the standard error of that; NaN where the planner does not value it.
 
     The error is 0 where nothing was sampled.
@@ -47,14 +47,14 @@ class Explanation:
     """The reasons of a decision. Beliefs are probabilities, values expected returns. Prints as a sentence."""
 
     scene: Scene = field(repr=False)  # the names of the items, and the rewards
-    chosen: Option
+    chosen: Alternative
     item: int  # what the decision is about; a wait is about the likeliest item
     belief: float  # in `item`
     rival: Rival | None  # None on a table of one item
     as_likely: int  # how many items are as likely as `item`, itself included
-    wait: Option
-    question: Option  # the best one
-    pick: Option  # the best one
+    wait: Alternative
+    question: Alternative  # the best one
+    pick: Alternative  # the best one
     unanswered: int | None  # the item of a question that no response has followed
 
     @property
@@ -76,11 +76,11 @@ class Explanation:
         return _error(self.question, self._without)
 
     @property
-    def _without(self) -> Option:
+    def _without(self) -> Alternative:
         return _highest(self.wait, self.pick)
 
     @property
-    def runner_up(self) -> Option:
+    def runner_up(self) -> Alternative:
         """The best action of another kind: among questions about twins there is always a tie that means nothing."""
         kinds = (self.wait, self.question, self.pick)
         return _highest(*(option for option in kinds if type(option.action) is not type(self.action)))
@@ -129,12 +129,12 @@ def deed(action: Action, scene: Scene) -> Phrase:
     return phrase("why_asks" if isinstance(action, Point) else "why_picks", item=scene.items[action.item].id)
 
 
-def _highest(*options: Option) -> Option:
+def _highest(*options: Alternative) -> Alternative:
     """Return the option of the highest value, the first of equal ones; one without a value only if none has one."""
     return max(options, key=lambda option: option.value if option.valued else -math.inf)
 
 
-def _error(first: Option, second: Option) -> float:
+def _error(first: Alternative, second: Alternative) -> float:
     return math.hypot(first.error, second.error) if first.valued and second.valued else math.nan
 
 

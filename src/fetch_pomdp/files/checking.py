@@ -43,7 +43,7 @@ def _backward(found: Scan) -> Iterator[InputError]:
         if event.time is None:
             continue
         if event.time < latest:
-            problem = f"found {event.time:g} after {latest:g}, expected a time that does not go back"
+            problem = f"found {event.time:g} after {latest:g}, expected no earlier time"
             yield EventError(problem, field="t", source=document.source, line=document.line_of("t"))
         latest = max(latest, event.time)
 
@@ -95,5 +95,5 @@ def differences(recording: Recording) -> Iterator[InputError]:
                 " ".join(map(str, action_to_json(action, scene).values()))
                 for action in (step.event.action, step.decided)
             )
-            problem = f"found {found}, expected {expected}, which the recorded planner and seed decide"
+            problem = f"found {found}, expected {expected}, as the recorded planner decides with the recorded seed"
             yield EventError(problem, field="action", source=document.source, line=step.line)

@@ -25,7 +25,7 @@ FLAGS = ("early", "anew")  # of an observation
 def event_from_json(data: Mapping[str, Any], scene: Scene) -> Event:
     """Build an event from the fields of a line. Raises EventError, ActionError, SceneError or ObservationError."""
     if "action" in data and "observation" in data:
-        raise EventError("found an observation too, expected a line for each", field="action")
+        raise EventError("found an action and an observation, expected one line for each", field="action")
     if "action" in data:
         return _acted(data, scene)
     checks.known(data, ("observation", "t", *FLAGS), "field", EventError)

@@ -90,7 +90,7 @@ def too_large(size: int, model: Discrete) -> None:
         words, responses, gestures = model.n_classes
         what = f"{model.problem.n_items} items and {words} x {responses} x {gestures} observations"
         found = f"found {what}, which make {size:,} numbers, expected at most {MOST_NUMBERS:,}"
-        raise ExportError(f"{found}: fewer items, words or rings, or a .pomdpx file, which is smaller")
+        raise ExportError(f"{found}; use fewer items, words or rings, or write a .pomdpx file, which is smaller")
 
 
 def _state(desired: int, asked: int | None) -> str:

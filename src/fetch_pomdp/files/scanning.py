@@ -71,7 +71,7 @@ def _misplaced(event: Event, events: Sequence[Event]) -> EventError | None:
     if last is not None and ends(last):
         if event.anew if isinstance(event, Observed) else returned and _same_action(event, last):
             return None
-        return EventError("found an event after a pick that was done, expected the end, its return, or a request anew")
+        return EventError("found an event after the hand-over, expected the end, its return, or a request anew")
     if returned:
         return EventError("found 'returned', expected the same pick, done, before it", field="outcome")
     if isinstance(event, Observed) and event.anew:

@@ -17,7 +17,7 @@ FULL = {errno.ENOSPC, errno.EFBIG, errno.EDQUOT}
 def unwritable(cause: Exception, path: str | Path, error: type[InputError]) -> InputError:
     """Return the complaint about a file that cannot be written."""
     if isinstance(cause, FileExistsError):
-        return error("found a file there already, expected a new one", source=str(path))
+        return error("found an existing file, expected a new one", source=str(path))
     reason = getattr(cause, "strerror", None) or cause
     expected = "room for it" if getattr(cause, "errno", None) in FULL else "a folder for it"
     return error(f"cannot be written: {reason}, expected {expected}", source=str(path))

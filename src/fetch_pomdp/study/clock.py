@@ -8,7 +8,7 @@ from fetch_pomdp.core.interaction import Timing
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Clock:
+class Durations:
     """Seconds of the robot's doings.
 
     A question is the arm's way to the item, the words "this one?", and listening; the arm goes back while the robot

@@ -16,7 +16,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError, StudyError
 from fetch_pomdp.files.models import changed
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.design import Paradigm, Study
 from fetch_pomdp.study.people.parameters import People
 
@@ -81,10 +81,10 @@ def _paradigm(value: object, path: str) -> Paradigm:
         raise error.within(path) from None
 
 
-def _clock(data: Mapping[str, Any]) -> Clock:
+def _clock(data: Mapping[str, Any]) -> Durations:
     try:
-        checks.known(data, [field.name for field in dataclasses.fields(Clock)], "time", StudyError)
-        return Clock(**{name: checks.within(value, 0.0, 1e3, name, "seconds, from 0 to 1000", StudyError)
+        checks.known(data, [field.name for field in dataclasses.fields(Durations)], "time", StudyError)
+        return Durations(**{name: checks.within(value, 0.0, 1e3, name, "seconds, from 0 to 1000", StudyError)
                         for name, value in data.items()})  # fmt: skip
     except InputError as error:
         raise error.within("clock") from None

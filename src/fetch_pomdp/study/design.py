@@ -16,7 +16,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError, StudyError
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.models import changed
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.trial import Assignment
 
@@ -45,15 +45,15 @@ class Paradigm:
 
 
 PAPER = {
-    "never": Paradigm(planner="never"),
-    "always": Paradigm(planner="always"),
+    "never": Paradigm(planner="paper-never"),
+    "always": Paradigm(planner="paper-always"),
     "fetch": Paradigm(planner="sparse"),
 }
 
 
 # Those of studies/people.toml and studies/fitted.toml, which says why.
 PAPERS_PEOPLE = People(patience=4.011, p_answer=0.99, p_miss=0.02814, p_lost=0.005, latency=0.0506)
-PAPERS_CLOCK = Clock(wait=0.5815, arm=0.6, speak=0.5, overhead=3.224)
+PAPERS_CLOCK = Durations(wait=0.5815, arm=0.6, speak=0.5, overhead=3.224)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,8 +65,9 @@ class Study:
 
     Choice: layouts take turns over the persons, so that their numbers differ by one at most whatever `people` is.
 
-    Choice: "fetch" is SparseSampling at the depth and width of the paper; our default planner is offered by its own
-    name.
+    Choice: all three robots are the paper's: "fetch" is SparseSampling at its depth and width, "never" the same search
+    without questions, "always" its rule. Our default planner, and the best robots that never or always ask, are offered
+    by names of their own: what asking buys is told with those.
 
     Choice: people and clock are those that come nearest to the paper's twelve cells of all that a search has tried.
 
@@ -79,7 +80,7 @@ class Study:
     layouts: Mapping[str, Scene] = field(default_factory=lambda: {name: Scene.load(name) for name in LAYOUTS})
     paradigms: Mapping[str, Paradigm] = field(default_factory=lambda: dict(PAPER))
     population: People = PAPERS_PEOPLE
-    clock: Clock = PAPERS_CLOCK
+    clock: Durations = PAPERS_CLOCK
     logs: bool = False  # whether every interaction is kept, event by event
     real_speech: bool = False  # whether words go through a voice and a recogniser, in place of the population's rates
 

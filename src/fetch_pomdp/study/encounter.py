@@ -11,7 +11,7 @@ from fetch_pomdp.core.events import Event
 from fetch_pomdp.core.interaction import interact
 from fetch_pomdp.core.language.answers import PAPER
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.people.channel import Channel
 from fetch_pomdp.study.people.person import Person
 from fetch_pomdp.study.people.traits import Traits
@@ -26,7 +26,7 @@ class Encounter:
 
 
 def encounter(
-    agent: Agent, desired: int, traits: Traits, clock: Clock, rng: Generator, *, channel: Channel | None = None
+    agent: Agent, desired: int, traits: Traits, clock: Durations, rng: Generator, *, channel: Channel | None = None
 ) -> Encounter:
     """Let a fresh agent meet a person who wants the item at index `desired`.
 

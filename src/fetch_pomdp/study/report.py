@@ -14,6 +14,7 @@ from fetch_pomdp.study.analysis.findings import EFFECTS, Findings, analyse, tabl
 from fetch_pomdp.study.analysis.plan import Plan
 from fetch_pomdp.study.analysis.trials import Table
 
+THIRDS = ("first", "second", "last")
 READING = (
     "A person is one number, the mean of their trials; intervals and the tests of persons show what varies between "
     "persons. They say what another such person would do.",
@@ -51,7 +52,8 @@ def write_report(table: Table, out: str | Path, plan: Plan | None = None) -> Pat
 
 def html(found: Findings) -> str:
     """Return the report as one page that needs nothing beside itself."""
-    body = [*_study(found), *_answers(found), *_cells(found), *_comparisons(found), *_course(found), *_power(found)]
+    body = [*_study(found), *_answers(found), *_cells(found), *_comparisons(found), *_course(found), *_order(found)]
+    body += _power(found)
     body += [page.heading("How to read this"), page.points(READING)]
     return page.page("A study of fetching robots", body)
 
@@ -150,6 +152,25 @@ def _course(found: Findings) -> list[str]:
         ),
         page.picture(plots.svg(plots.questions(found.trials, found.cells)), f"Bars. {asked}", "Questions of a trial."),
     ]
+
+
+def _order(found: Findings) -> list[str]:
+    """Return how a person's trials change from the first to the last, whatever the robot."""
+    trials = found.trials
+    place = trials.groupby("person")["order"].rank(method="first") - 1.0
+    part = (place * len(THIRDS) // trials.groupby("person")["order"].transform("size")).astype(int)
+    each = trials.groupby(["layout", part.rename("part"), "person"])[["time", "correct", "questions"]].mean()
+    means = each.groupby(["layout", "part"]).mean()
+    rows = [
+        (str(layout), THIRDS[part], f"{row.time:.2f}", f"{100 * row.correct:.1f}", f"{row.questions:.2f}")
+        for (layout, part), row in zip(means.index, means.itertuples(), strict=True)
+    ]
+    text = (
+        "Means over persons of the thirds of their trials, in the order in which they had them, over all paradigms: "
+        "what practice or fatigue does. Paradigms are mixed within each person, so that it falls on all of them."
+    )
+    headers = ("layout", "third", "time (s)", "right (%)", "questions")
+    return [page.heading("Order of the trials"), page.paragraph(text), page.grid("By order", headers, rows, 2)]
 
 
 def _power(found: Findings) -> list[str]:

@@ -18,7 +18,7 @@ from fetch_pomdp.files.header import Header
 from fetch_pomdp.study.configuration import digest, study_from_mapping, to_plain
 from fetch_pomdp.study.design import PRACTICE, Study, assignments_of, stream
 from fetch_pomdp.study.trial import Assignment
-from fetch_pomdp.user_study.questionnaire import Question, question_from_mapping, texts, truth
+from fetch_pomdp.user_study.questionnaire import CHECK, Question, question_from_mapping, texts, truth
 
 SECTION = "participation"
 FIELDS = ("title", "consent", "instructions", "practice", "questions", "keep_sound", "countdown")
@@ -70,6 +70,7 @@ class UserStudy:
         study = {name: value for name, value in to_plain(self.study).items() if name not in SIMULATED}
         asked = [
             [each.id, each.kind, each.page, each.required, [option.id for option in each.options]]
+            + ([each.correct] if each.kind == CHECK else [])
             for each in self.questions
         ]
         return digest({"study": study, "practice": self.practice, "countdown": self.countdown, "asked": asked})

@@ -12,15 +12,16 @@ from fetch_pomdp.checks import shown
 from fetch_pomdp.errors import InputError, MessageError, StudyError
 
 LANGUAGES = ("en", "de")  # the first is required
-KINDS = ("text", "scale", "choice", "choices")
-FIELDS = ("id", "kind", "text", "options", "required", "page")
+CHECK = "attention_check"
+KINDS = ("text", "scale", "choice", "choices", CHECK)
+FIELDS = ("id", "kind", "text", "options", "correct", "required", "page")
 ENDS = 2  # a scale has a text at each end
 POINTS = 7  # of a scale
 LONGEST = 5_000  # characters of an answer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Option:
+class ResponseOption:
     """A possible answer, or one end of a scale; text: by language."""
 
     id: str
@@ -29,7 +30,8 @@ class Option:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Question:
-    """A question: an answer in words, a place on a scale from 1 to 7, one choice, or any number of choices.
+    """A question: an answer in words, a place on a scale from 1 to 7, one choice, any number of choices, or a check
+    that people read what they answer: one choice, of which `correct` is the id of the option that the text asks for.
 
     page: questions of a later page are shown when those before are answered, which cannot be changed then, so that
     listed answers do not influence an open question before them.
@@ -38,7 +40,8 @@ class Question:
     id: str
     kind: str  # of KINDS
     text: Mapping[str, str]  # by language
-    options: tuple[Option, ...] = ()
+    options: tuple[ResponseOption, ...] = ()
+    correct: str | None = None  # of an attention check
     required: bool = True
     page: int = 1
 
@@ -54,11 +57,13 @@ def question_from_mapping(value: object, path: str) -> Question:
             raise StudyError(f"found {shown(kind)}, expected one of {', '.join(KINDS)}", field="kind")
         if type(page) is not int or page < 1:
             raise StudyError(f"found {shown(page)}, expected a whole number from 1", field="page")
+        options = _options(data.get("options", []), kind)
         return Question(
             id=checks.text(data["id"], "id", "a name that is not empty", StudyError),
             kind=kind,
             text=texts(data["text"], "text"),
-            options=_options(data.get("options", []), kind),
+            options=options,
+            correct=_correct(data, kind, options),
             required=truth(data.get("required", True), "required"),
             page=page,
         )
@@ -66,7 +71,7 @@ def question_from_mapping(value: object, path: str) -> Question:
         raise error.within(path) from None
 
 
-def _options(value: object, kind: str) -> tuple[Option, ...]:
+def _options(value: object, kind: str) -> tuple[ResponseOption, ...]:
     if not isinstance(value, list | tuple):
         raise StudyError(f"found {shown(value)}, expected a list of texts by language", field="options")
     options = tuple(_option(each, f"options[{index}]") for index, each in enumerate(value))
@@ -77,17 +82,28 @@ def _options(value: object, kind: str) -> tuple[Option, ...]:
         raise StudyError(f"found {len(options)}, expected none: the answer is a text", field="options")
     if kind == "scale" and len(options) != ENDS:
         raise StudyError(f"found {len(options)}, expected {ENDS}, of the ends of the scale", field="options")
-    if kind in ("choice", "choices") and not options:
+    if kind in ("choice", "choices", CHECK) and not options:
         raise StudyError("found none, expected one or more", field="options")
     return options
 
 
-def _option(value: object, path: str) -> Option:
+def _correct(data: Mapping[str, Any], kind: str, options: Sequence[ResponseOption]) -> str | None:
+    names, found = [option.id for option in options], data.get("correct")
+    if kind != CHECK and found is not None:
+        raise StudyError(f"found {shown(found)}, expected none: only an {CHECK} has a correct answer", field="correct")
+    if kind == CHECK and found not in names:
+        raise StudyError(f"found {shown(found)}, expected one of {', '.join(names)}", field="correct")
+    return found if kind == CHECK else None
+
+
+def _option(value: object, path: str) -> ResponseOption:
     """Read an option; without an id, its English text is its id."""
     try:
         fields = dict(checks.mapping(value, "", StudyError))
         name = fields.pop("id", fields.get("en"))
-        return Option(id=checks.text(name, "id", "a name that is not empty", StudyError), text=texts(fields, ""))
+        return ResponseOption(
+            id=checks.text(name, "id", "a name that is not empty", StudyError), text=texts(fields, "")
+        )
     except InputError as error:
         raise error.within(path) from None
 
@@ -147,13 +163,16 @@ def _answer(question: Question, value: Any) -> Any:
         return value
     chosen = value if question.kind == "choices" else [value]
     if not isinstance(chosen, list) or any(each not in names for each in chosen) or len(set(chosen)) < len(chosen):
-        expected = f"{'one' if question.kind == 'choice' else 'any'} of {', '.join(names)}"
+        expected = f"{'any' if question.kind == 'choices' else 'one'} of {', '.join(names)}"
         raise MessageError(f"found {shown(value)}, expected {expected}", field=question.id)
+    if question.kind == CHECK:
+        return {"chosen": value, "passed": value == question.correct}
     return [name for name in names if name in chosen] if question.kind == "choices" else value
 
 
 def question_to_json(question: Question) -> ServerMessage:
-    """Return a question as a page shows it."""
-    fields = {"id": question.id, "kind": question.kind, "text": dict(question.text), "required": question.required}
+    """Return a question as a page shows it; an attention check looks like any choice, and its answer stays here."""
+    kind = "choice" if question.kind == CHECK else question.kind
+    fields = {"id": question.id, "kind": kind, "text": dict(question.text), "required": question.required}
     options = [{"id": option.id, "text": dict(option.text)} for option in question.options]
     return {**fields, "options": options, "points": POINTS if question.kind == "scale" else None}

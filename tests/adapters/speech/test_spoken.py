@@ -16,11 +16,11 @@ from fetch_pomdp.adapters.speech.audio import RATE
 from fetch_pomdp.adapters.speech.espeak import spoken
 from fetch_pomdp.adapters.speech.spoken import AFTER, BEFORE, SpokenWords, in_noise
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import AudioError, MissingExtraError
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.encounter import encounter
 from fetch_pomdp.study.people.channel import Channel
 from fetch_pomdp.study.people.parameters import People
@@ -78,7 +78,9 @@ def test_a_study_takes_it_as_its_channel() -> None:
     pytest.importorskip("pocketsphinx")
     traits = People(descriptors=(0.0, 1.0), p_name=1.0).traits(default_rng(3))
     found = [
-        encounter(Agent(SCENE, AlwaysAsk()), 3, traits, Clock(), default_rng(1), channel=SpokenWords(SCENE.words))
+        encounter(
+            Agent(SCENE, PaperAlwaysAsk()), 3, traits, Durations(), default_rng(1), channel=SpokenWords(SCENE.words)
+        )
         for _ in range(2)
     ]
     words = [[event.words for event in one.events if hasattr(event, "words")] for one in found]

@@ -20,7 +20,7 @@ from fetch_pomdp.core.live.inbox import MOST_WORDS, Inbox
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.header import Header
 
-HEADER = Header(scene=Scene.load("ambiguous"), scene_name="ambiguous", planner="never")
+HEADER = Header(scene=Scene.load("ambiguous"), scene_name="ambiguous", planner="paper-never")
 GESTURE = Pointed((0.0, 0.0, 1.6), (0.0675, 0.576, 1.447))
 
 

@@ -15,7 +15,7 @@ from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.header import Header
 
-HEADER = Header(scene=Scene.load("ambiguous"), scene_name="ambiguous", planner="never")
+HEADER = Header(scene=Scene.load("ambiguous"), scene_name="ambiguous", planner="paper-never")
 STORY = (
     Observed(Observation(("marker",)), time=1.0),
     Acted(Point(2), time=3.0),

@@ -245,7 +245,7 @@ def test_who_may_not_look_into_the_robot_s_mind_is_told_nothing_of_it() -> None:
 
 def test_a_hand_over_can_be_stopped(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(robot, "GRASP", FOR_EVER)
-    page = house.page(planner="never")
+    page = house.page(planner="paper-never")
     page.send({"type": "typed", "text": "green marker expo pen"})
     item = page.next("decided", action="pick")["item"]
     page.send({"type": "typed", "text": "stop"})
@@ -287,7 +287,7 @@ def test_who_comes_back_goes_on_where_they_were(tmp_path: Path, monkeypatch: pyt
 
 
 def test_what_was_handed_over_is_known_to_who_comes_back_after_it(house: House) -> None:
-    page = house.page(planner="never")
+    page = house.page(planner="paper-never")
     secret = page.next("welcome")["resume"]
     page.send({"type": "typed", "text": "green marker expo pen"})
     picked = page.next("action", action="pick", outcome="done")["item"]

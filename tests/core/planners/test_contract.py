@@ -15,8 +15,9 @@ from hypothesis import strategies as st
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, Planner, best_action
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk, ChaiRule, InformationGain, OneShot
-from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, NeverAsk, WilliamsYoung
+from fetch_pomdp.core.planners.baselines.paradigms import AlwaysAsk, NeverAsk
+from fetch_pomdp.core.planners.baselines.rules import ChaiRule, InformationGain, OneShot, PaperAlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, PaperNeverAsk, WilliamsYoung
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
@@ -33,10 +34,10 @@ EXACT_RAYS = Problem(
 LEADING = [0.02, 0.02, 0.55, 0.35, 0.03, 0.03]
 UNEVEN = [0.05, 0.1, 0.35, 0.4, 0.06, 0.04]
 
-SEARCHES: list[Callable[..., Planner]] = [ExactAnswers, SparseSampling, NeverAsk]
+SEARCHES: list[Callable[..., Planner]] = [ExactAnswers, SparseSampling, PaperNeverAsk]
 # Planners that follow a rule and value picks alone; planners that ask first whatever they believe.
-RULED = (AlwaysAsk, Threshold, ChaiRule, InformationGain, OneShot)
-OPENS = (AlwaysAsk, WilliamsYoung)
+RULED = (PaperAlwaysAsk, Threshold, ChaiRule, InformationGain, OneShot)
+OPENS = (AlwaysAsk, PaperAlwaysAsk, WilliamsYoung)
 
 
 @pytest.fixture(params=sorted(PLANNERS))
@@ -110,7 +111,7 @@ def test_a_table_with_one_item(planner: Planner, asked: int | None) -> None:
 def test_two_items(planner: Planner, asked: int | None, belief: list[float]) -> None:
     decision = decide(planner, table([["cup"], ["mug"]]), belief, asked)
     assert_sound(decision, 2)
-    if not isinstance(planner, (NeverAsk, *RULED, *OPENS)):
+    if not isinstance(planner, (NeverAsk, PaperNeverAsk, *RULED, *OPENS)):
         assert np.isfinite([decision.wait, *decision.point]).all()
         assert max(decision.wait + 1, *(decision.point + 6)) <= 10 + 1e-9
 
@@ -130,8 +131,8 @@ def test_an_item_that_is_certain_is_picked(planner: Planner, item: int) -> None:
         ExactAnswers(depth=3, width=2),
         ExactAnswers(depth=3, width=1, leaf="pick"),
         SparseSampling(depth=1),
-        NeverAsk(depth=3),
-        AlwaysAsk(),
+        PaperNeverAsk(depth=3),
+        PaperAlwaysAsk(),
         FittedValue(),
         Threshold(),
         ChaiRule(),
@@ -175,7 +176,7 @@ def test_stated_errors_are_those_found(make: Callable[..., Planner], depth: int,
     stated = float(np.mean([decision.wait_error for decision in decisions]))
     found = float(np.std([decision.wait for decision in decisions]))
     assert 0.3 * stated < found < 1.15 * stated
-    if make is not NeverAsk:
+    if make is not PaperNeverAsk:
         points = np.array([decision.point for decision in decisions])
         errors = np.array([decision.point_error for decision in decisions])
         assert (points.std(axis=0) < 1.15 * errors.mean(axis=0)).all()
@@ -221,7 +222,9 @@ def test_values_are_finite_and_possible_in_any_model(
     problem = table(vocabularies, **parameters)
     decision = decide(make(depth=depth, width=3), problem, [w / sum(weights) for w in weights], asked)
     assert_sound(decision, 4)
-    values = [decision.wait, *decision.pick] if make is NeverAsk else [decision.wait, *decision.point, *decision.pick]
+    values = (
+        [decision.wait, *decision.pick] if make is PaperNeverAsk else [decision.wait, *decision.point, *decision.pick]
+    )
     assert np.isfinite(values).all()
     assert min(decision.pick) >= -12.5 - 1e-9
     assert max(values) <= 10 + 1e-9
@@ -269,7 +272,11 @@ def test_the_default_planner_is_ours() -> None:
             {"dept": 2},
             "dept: unknown parameter of planner 'exact', expected one of depth, width, leaf, did you mean",
         ),
-        ("always", {"depth": 2}, "depth: unknown parameter of planner 'always', expected one of confidence"),
+        (
+            "paper-always",
+            {"depth": 2},
+            "depth: unknown parameter of planner 'paper-always', expected one of confidence",
+        ),
         ("exact", {"depth": 0}, f"depth: found 0, expected a whole number from 1 to {MOST_DEPTH}"),
         ("exact", {"depth": MOST_DEPTH + 1}, "depth: found 21"),
         ("exact", {"width": -1}, "width: found -1"),
@@ -277,9 +284,9 @@ def test_the_default_planner_is_ours() -> None:
         ("exact", {"leaf": "oak"}, "leaf: found 'oak', expected 'pick' or 'question'"),
         ("sparse", {"width": 0}, "width: found 0, expected a whole number from 1"),
         ("sparse", {"depth": True}, "depth: found True"),
-        ("never", {"depth": 1.5}, "depth: found 1.5"),
-        ("never", {"width": "10"}, "width: found '10'"),
-        ("always", {"confidence": 0}, "confidence: found 0, expected a probability above 0 and at most 1"),
+        ("paper-never", {"depth": 1.5}, "depth: found 1.5"),
+        ("paper-never", {"width": "10"}, "width: found '10'"),
+        ("paper-always", {"confidence": 0}, "confidence: found 0, expected a probability above 0 and at most 1"),
         ("fitted", {"beliefs": 99}, "beliefs: found 99, expected a whole number from 100"),
         ("fitted", {"rays": 0}, "rays: found 0"),
         (
@@ -289,7 +296,7 @@ def test_the_default_planner_is_ours() -> None:
         ),
         ("fitted", {"budget_ms": -1}, "budget_ms: found -1, expected a time from 0 to 1e6 ms, or none"),
         ("threshold", {"pick": -0.1}, "pick: found -0.1, expected a belief from 0, or a limit to 2"),
-        ("always", {"confidence": math.nan}, "confidence: found nan"),
+        ("paper-always", {"confidence": math.nan}, "confidence: found nan"),
         ("chai", {"ratio": 0}, "ratio: found 0, expected a share of the largest belief, above 0 and at most 1"),
         ("williams-young", {"depth": 0}, f"depth: found 0, expected a whole number from 1 to {MOST_DEPTH}"),
         ("doshi-roy", {"depth": 1}, f"depth: found 1, expected a whole number from 2 to {MOST_DEPTH}"),

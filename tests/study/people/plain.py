@@ -8,7 +8,7 @@ from typing import Any
 from numpy.random import Generator, default_rng
 
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.people.person import Person
 from fetch_pomdp.study.people.traits import Traits
@@ -27,7 +27,7 @@ STILL: dict[str, Any] = {
     "descriptors": (0.0, 1.0),
     "confusions": {},
 }
-CLOCK = Clock(think=0.1, wait=1.0, arm=1.0, speak=0.8)
+CLOCK = Durations(think=0.1, wait=1.0, arm=1.0, speak=0.8)
 AMBIGUOUS = Scene.load("ambiguous")
 
 

@@ -16,7 +16,7 @@ from fetch_pomdp.study.reproduce.targets import Target, Targets
 from fetch_pomdp.study.reproduce.words import markdown
 from tests.study.small import row, small
 
-SURE = Paradigm(planner="always", parameters={"confidence": 0.9})
+SURE = Paradigm(planner="paper-always", parameters={"confidence": 0.9})
 QUICK = Paradigm(planner="threshold", parameters={"pick": 0.8})
 STUDY = small(
     layouts={"ambiguous": row(2), "unambiguous": row(3)},

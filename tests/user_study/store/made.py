@@ -20,7 +20,7 @@ WAITED, PICKED = Acted(Wait(), time=1.0), Acted(Pick(1), time=2.5)
 
 def header(person: int, order: int, target: str = "bowl-2", paradigm: str = "never") -> Header:
     return Header(
-        scene=SCENE, scene_name="ambiguous", planner="never", target=target, person=person, layout="ambiguous",
+        scene=SCENE, scene_name="ambiguous", planner="paper-never", target=target, person=person, layout="ambiguous",
         paradigm=paradigm, order=order, begun=0.0,
     )  # fmt: skip
 

@@ -197,3 +197,21 @@ def test_no_more_sound_of_a_trial_is_kept_than_ten_minutes(store: Store, monkeyp
     for start in (2.0, 3.0, 4.0):
         again.keep_sound(start, second)
     assert store.forget(someone.code).rows["sounds"] == 3
+
+
+def test_attention_checks_are_counted_and_no_typed_text_is_taken_for_one(tmp_path: Path) -> None:
+    store = Store.open(f"sqlite:///{tmp_path / 'p.db'}")
+    careful, hasty = joined(store), joined(store)
+    for person, passed in ((careful, (True, True)), (hasty, (True, False))):
+        for number, one in enumerate(passed):
+            store.answer(person.id, f"check-{number}", {"chosen": "often", "passed": one})
+        store.answer(person.id, "open", '{"chosen": "often", "passed": true}')
+    store.export(tmp_path / "out")
+    store.close()
+    assert rows(tmp_path / "out" / "attention.csv") == [
+        {"person": "0", "passed": "2", "of": "2"},
+        {"person": "1", "passed": "1", "of": "2"},
+    ]
+    assert {"person": "1", "question": "check-1", "value": '{"chosen": "often", "passed": false}'} in rows(
+        tmp_path / "out" / "answers.csv"
+    )

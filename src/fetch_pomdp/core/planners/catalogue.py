@@ -8,8 +8,9 @@ from typing import Any
 
 from fetch_pomdp.checks import known
 from fetch_pomdp.core.planners.base import Planner
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk, ChaiRule, InformationGain, OneShot
-from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, NeverAsk, WilliamsYoung
+from fetch_pomdp.core.planners.baselines.paradigms import AlwaysAsk, NeverAsk
+from fetch_pomdp.core.planners.baselines.rules import ChaiRule, InformationGain, OneShot, PaperAlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, PaperNeverAsk, WilliamsYoung
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold
@@ -23,6 +24,8 @@ PLANNERS: Mapping[str, Callable[..., Planner]] = {
     "threshold": Threshold,
     "never": NeverAsk,
     "always": AlwaysAsk,
+    "paper-never": PaperNeverAsk,
+    "paper-always": PaperAlwaysAsk,
     "chai": ChaiRule,
     "williams-young": WilliamsYoung,
     "doshi-roy": DoshiRoy,

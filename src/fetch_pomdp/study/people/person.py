@@ -1,7 +1,7 @@
 """A simulated person before a robot: events on the clock of the stream, heard and seen through the ports of the core.
 
 The person asks, points, answers, corrects and loses patience; the robot on the other side of these ports takes the
-time that its Clock says. What the person does depends on what the robot did and when, not on how often it listens.
+time that its durations say. What the person does depends on what the robot did and when, not on how often it listens.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from numpy.random import Generator
 
 from fetch_pomdp.core.ports import Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.people import grammar, pointing
 from fetch_pomdp.study.people.channel import Channel, MistakenWords
 from fetch_pomdp.study.people.grammar import Words
@@ -30,7 +30,13 @@ class Person:
     """
 
     def __init__(
-        self, scene: Scene, desired: int, traits: Traits, clock: Clock, rng: Generator, channel: Channel | None = None
+        self,
+        scene: Scene,
+        desired: int,
+        traits: Traits,
+        clock: Durations,
+        rng: Generator,
+        channel: Channel | None = None,
     ) -> None:
         self._scene, self._desired, self._traits, self._clock, self._rng = scene, desired, traits, clock, rng
         self._asked: Item | None = None  # the item of the last question, as the person read it

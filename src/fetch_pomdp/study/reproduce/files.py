@@ -10,7 +10,7 @@ from typing import Any
 
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.files.writing import replaced
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.reproduce.free import changed
 from fetch_pomdp.study.reproduce.search import Fit
@@ -30,7 +30,7 @@ def write_fit(targets: Targets, found: Fit, path: Path) -> tuple[Path, Path]:
     study = changed(targets.study, {name: float(f"{value:.{DIGITS}g}") for name, value in found.values.items()})
     why = {free.name: free.why for free in targets.free}
     people = _lines(study.population, People(), why)
-    clock = _lines(study.clock, Clock(), why)
+    clock = _lines(study.clock, Durations(), why)
     beside = path.with_name(STUDY)
     head = f"# Fitted to the cells of the paper: loss {found.loss:.1f} after {found.evaluations} evaluations"
     study_lines = [f"{name} = {getattr(study, name)}" for name in ("people", "trials", "seed")]
@@ -41,7 +41,7 @@ def write_fit(targets: Targets, found: Fit, path: Path) -> tuple[Path, Path]:
     return path, beside
 
 
-def _lines(given: People | Clock, default: People | Clock, why: Mapping[str, str]) -> Iterable[str]:
+def _lines(given: People | Durations, default: People | Durations, why: Mapping[str, str]) -> Iterable[str]:
     """Return a line for each field that is not as by default, with the reason of one that was free."""
     fields: dict[str, Any] = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
     return [

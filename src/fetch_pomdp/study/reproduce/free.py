@@ -10,14 +10,14 @@ from typing import Any
 
 from fetch_pomdp import checks
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.clock import Clock
+from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.design import Study
 from fetch_pomdp.study.people.parameters import People
 
 MOST_FREE = 5
 OVERHEAD = "overhead"  # solved for, given the others: it moves every mean time by as much
 PEOPLE = tuple(field.name for field in dataclasses.fields(People))
-CLOCK = tuple(field.name for field in dataclasses.fields(Clock))
+CLOCK = tuple(field.name for field in dataclasses.fields(Durations))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -28,7 +28,7 @@ class Story:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class StoryResult:
     """What a story does at a strength: all cells of the targets, in their order, and the loss of the fitted ones."""
 
     story: Story
@@ -82,7 +82,7 @@ STORIES = (
 )  # fmt: skip
 
 
-def tell(targets: Targets, study: Study, people: int, seed: int, crew: Crew | None = None) -> Iterator[Outcome]:
+def tell(targets: Targets, study: Study, people: int, seed: int, crew: Crew | None = None) -> Iterator[StoryResult]:
     """Yield what each story does at each strength to the people of a study, all else left as it is.
 
     people: a layout. All outcomes are of the same people, drawn with `seed`.
@@ -93,7 +93,7 @@ def tell(targets: Targets, study: Study, people: int, seed: int, crew: Crew | No
             told = changed(base, story.changes(study.population, strength))
             trials = simulate(told, crew or Crew())
             cells = tuple(cell(trials, target) for target in targets.cells)
-            yield Outcome(story, strength, cells, _loss(cells, targets))
+            yield StoryResult(story, strength, cells, _loss(cells, targets))
 
 
 def _loss(cells: tuple[Simulated, ...], targets: Targets) -> float:

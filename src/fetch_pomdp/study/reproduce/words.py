@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fetch_pomdp.study.reproduce.compare import FAR, Comparison, Held, Row
-from fetch_pomdp.study.reproduce.stories import Outcome
+from fetch_pomdp.study.reproduce.stories import StoryResult
 from fetch_pomdp.study.reproduce.targets import Targets
 
 HEAD = (
@@ -62,7 +62,7 @@ def stories_head(targets: Targets) -> str:
     return f"| {' | '.join(columns)} |\n|{'---|' * len(columns)}"
 
 
-def outcome(told: Outcome) -> str:
+def outcome(told: StoryResult) -> str:
     """Return an outcome as a row of it; loss is that of the fitted cells."""
     cells = [f"{ours.time:.2f}, {ours.accuracy:.1f}" for ours in told.cells]
     story = told.story

@@ -87,6 +87,8 @@ def _written(connection: Connection, folder: Path, study: str) -> Exported:
     conditions = ((row.person, row.number, row.interruptions, bool(row.given_up)) for row in over)
     _table(folder / "conditions.csv", CONDITIONS, conditions)
     _table(folder / "answers.csv", ("person", "question", "value"), _answers(connection, study))
+    if attention := list(_attention(connection, study)):
+        _table(folder / "attention.csv", ("person", "passed", "of"), attention)
     trials = [dataclasses.asdict(trial) for trial in trials_of((str(log), read_recording(log)) for log in logs)]
     if trials:
         _table(folder / "trials.csv", tuple(trials[0]), (tuple(trial.values()) for trial in trials))
@@ -130,11 +132,27 @@ def _person(one: Progress) -> tuple[object, ...]:
 
 def _answers(connection: Connection, study: str) -> Iterator[tuple[object, ...]]:
     """Yield person, question and value; text as it is, anything else as JSON."""
-    query = _of_people(study, ANSWERS.c.question, ANSWERS.c.value)
-    query = query.join(ANSWERS, ANSWERS.c.participant == PARTICIPANTS.c.id)
-    for row in connection.execute(query.order_by(ANSWERS.c.question)):
+    for row in _given(connection, study):
         value = json.loads(row.value)
         yield row.person, row.question, value if isinstance(value, str) else row.value
+
+
+def _given(connection: Connection, study: str) -> sa.CursorResult[Any]:
+    """Return person, question and value (JSON) of all answers."""
+    query = _of_people(study, ANSWERS.c.question, ANSWERS.c.value)
+    query = query.join(ANSWERS, ANSWERS.c.participant == PARTICIPANTS.c.id)
+    return connection.execute(query.order_by(ANSWERS.c.question))
+
+
+def _attention(connection: Connection, study: str) -> Iterator[tuple[int, int, int]]:
+    """Yield person, attention checks passed, and how many they answered."""
+    found: dict[int, list[bool]] = {}
+    for row in _given(connection, study):
+        given = json.loads(row.value)
+        if isinstance(given, dict):  # the answers to other questions are none
+            found.setdefault(row.person, []).append(given["passed"])
+    for person, passed in found.items():
+        yield person, sum(passed), len(passed)
 
 
 def _table(path: Path, columns: Sequence[str], rows: Iterable[Sequence[object]]) -> None:

@@ -16,7 +16,13 @@ from numpy.random import default_rng
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Planner, code_of, decide_many
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk, ChaiRule, InformationGain, OneShot, answer_information
+from fetch_pomdp.core.planners.baselines.rules import (
+    ChaiRule,
+    InformationGain,
+    OneShot,
+    PaperAlwaysAsk,
+    answer_information,
+)
 from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, WilliamsYoung
 from fetch_pomdp.core.planners.kernels import ASKED, Turn, answered
 from fetch_pomdp.core.simulation import simulate
@@ -152,7 +158,7 @@ def test_one_shot_s_accuracy_is_that_of_one_word() -> None:
 
 
 def always(belief: list[float], asked: int | None, confidence: float = 0.95) -> Action:
-    planner = AlwaysAsk(confidence)
+    planner = PaperAlwaysAsk(confidence)
     return planner.decide(AMBIGUOUS, Belief(belief), asked, rng=np.random.default_rng(0)).action
 
 
@@ -183,5 +189,5 @@ def test_always_ask_goes_on_until_it_holds_its_confidence() -> None:
 
 def test_always_ask_does_not_wait_for_ever_before_an_item_alone() -> None:
     alone, rng = table([["cup"]]), np.random.default_rng(0)
-    assert AlwaysAsk().decide(alone, Belief([1.0]), None, rng=rng).action == Point(0)
-    assert AlwaysAsk().decide(alone, Belief([1.0]), 0, rng=rng).action == Pick(0)
+    assert PaperAlwaysAsk().decide(alone, Belief([1.0]), None, rng=rng).action == Point(0)
+    assert PaperAlwaysAsk().decide(alone, Belief([1.0]), 0, rng=rng).action == Pick(0)

@@ -12,8 +12,8 @@ from numpy.random import default_rng
 
 from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.planners.baselines.rules import AlwaysAsk
-from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, NeverAsk, WilliamsYoung
+from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
+from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, PaperNeverAsk, WilliamsYoung
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
 from tests.core.planners.baselines.acting import AMBIGUOUS, act, decision
 from tests.core.planners.test_contract import plain
@@ -24,7 +24,7 @@ def test_never_ask_never_asks_and_does_not_value_it() -> None:
     rng = np.random.default_rng(0)
     for weights in rng.dirichlet([0.3] * 6, size=200):
         for asked in (None, 0):
-            found = NeverAsk().decide(AMBIGUOUS, Belief(weights / weights.sum()), asked, rng=rng)
+            found = PaperNeverAsk().decide(AMBIGUOUS, Belief(weights / weights.sum()), asked, rng=rng)
             assert not isinstance(found.action, Point)
             assert np.isnan(found.point).all()
             picked = isinstance(found.action, Pick)
@@ -34,8 +34,8 @@ def test_never_ask_never_asks_and_does_not_value_it() -> None:
 
 
 def test_never_ask_has_the_paper_s_depth_and_width() -> None:
-    assert (NeverAsk().depth, NeverAsk().width) == (2, 10)
-    assert AlwaysAsk().confidence == 0.95
+    assert (PaperNeverAsk().depth, PaperNeverAsk().width) == (2, 10)
+    assert PaperAlwaysAsk().confidence == 0.95
 
 
 @pytest.mark.parametrize("belief", [[1.0, 0.0, 0.0], [0.0, 0.98, 0.02], [0.34, 0.33, 0.33]])

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.planners.base import Decision, Planner
-from fetch_pomdp.core.planners.baselines.searches import NeverAsk
+from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling, default_width
 from fetch_pomdp.core.problem import Problem
 from tests.oracles import asking
@@ -67,7 +67,9 @@ def test_exact_answers_with_leaf_question_equals_enumeration(
         assert_equal(found, action_values(belief, asked, depth, world_of(problem), asking.question_leaf))
 
 
-@pytest.mark.parametrize("planner", [ExactAnswers(depth=1, leaf="pick"), SparseSampling(depth=1), NeverAsk(depth=1)])
+@pytest.mark.parametrize(
+    "planner", [ExactAnswers(depth=1, leaf="pick"), SparseSampling(depth=1), PaperNeverAsk(depth=1)]
+)
 @pytest.mark.parametrize("asked", [None, 0])
 def test_one_action_is_the_best_pick_or_a_wait(planner: Planner, asked: int | None) -> None:
     for belief in BELIEFS:
@@ -207,7 +209,7 @@ def test_searches_near_enumeration_where_words_matter(problem: Problem, asked: i
     assert_within_errors(decided(ExactAnswers(depth=2, width=20_000, leaf="pick"), problem, belief, asked), expected)
     patient = action_values(belief, asked, 2, world_of(problem), asking.question_leaf)
     assert_within_errors(decided(ExactAnswers(depth=2, width=20_000), problem, belief, asked), patient)
-    silent = decided(NeverAsk(depth=2, width=20_000), problem, belief, asked)
+    silent = decided(PaperNeverAsk(depth=2, width=20_000), problem, belief, asked)
     assert abs(silent.wait - expected.wait) <= 4 * silent.wait_error + 1e-9
 
 
@@ -234,7 +236,7 @@ def test_never_ask_is_worth_what_waiting_alone_is() -> None:
     def wait_value(belief: list[float], left: int) -> float:
         return -1 + sum(chance * waiting(following, left - 1) for chance, following in after(belief, None, 0.95, world))
 
-    found = decided(NeverAsk(depth=3, width=700), problem, [0.5, 0.5], None)
+    found = decided(PaperNeverAsk(depth=3, width=700), problem, [0.5, 0.5], None)
     assert found.wait == pytest.approx(wait_value([0.5, 0.5], 3), abs=0.3)
     assert np.isnan(found.point).all()
 

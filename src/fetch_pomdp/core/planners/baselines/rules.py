@@ -170,9 +170,9 @@ class OneShot:
 
     With a `confidence` above 0 it waits until its belief has reached that. Source: [22], the paper's "previous work",
     taken to be Whitney, Eldon, Oberlin and Tellex, "Interpreting multimodal referring expressions in real time", ICRA
-    2016: a Bayes filter over words and pointing, without a plan. Paradigm one (NeverAsk), "an improved version of the
-    model from our previous work" (Section IV), has the same filter and plans when to pick. Left out: their context of
-    the task, and their own likelihoods; the filter is ours (Eq. 1-7).
+    2016: a Bayes filter over words and pointing, without a plan. Paradigm one (PaperNeverAsk), "an improved version of
+    the model from our previous work" (Section IV), has the same filter and plans when to pick. Left out: their context
+    of the task, and their own likelihoods; the filter is ours (Eq. 1-7).
 
     Choice: the paper does not say when the robot of [22] picks. The first observation makes it the fast and careless
     end of the robots that never ask.
@@ -211,8 +211,10 @@ class OneShot:
 
 
 @dataclass(frozen=True, slots=True)
-class AlwaysAsk:
-    """Paradigm two: asks about the likeliest item, at least once, until it is `confidence` sure of it.
+class PaperAlwaysAsk:
+    """Paradigm two as the paper has it: asks about the likeliest item, at least once, until it is `confidence` sure.
+
+    It asks again while the answer is on its way: a robot that always asks can do better (`AlwaysAsk`).
 
     Choice: it waits as long as its belief is uniform, for there is no likeliest item to ask about.
 

@@ -31,8 +31,10 @@ from fetch_pomdp.core.turns import DESIRED, OTHER
 
 
 @dataclass(frozen=True, slots=True)
-class NeverAsk:
-    """Paradigm one: the search of the paper's depth and width without questions; it waits or picks.
+class PaperNeverAsk:
+    """Paradigm one as the paper has it: the search of its depth and width without questions; it waits or picks.
+
+    Two steps see no end of the waits that would pay: a robot that never asks can do better (`NeverAsk`).
 
     Raises PlannerError for a depth or width that is no whole number in range.
     """

@@ -41,6 +41,9 @@ class SparseSampling:
 
     Choice: depth counts actions, so depth 2 is act, observe, act.
 
+    Choice: live people answer in the step after a question as often as in its own, so that two actions see too few of
+    the answers to ask. Before them a question and its answer count for one, and the search goes one action deeper.
+
     Choice: the paper does not say how the observations of a node are drawn; here the actions share their random
     numbers, and desired items and answers are spread evenly over their distributions. Drawn independently for each
     action, ten observations cost 0.3 (ambiguous) to 0.6 points a fetch.
@@ -61,7 +64,8 @@ class SparseSampling:
         """Choose the action with the highest sampled value."""
         if self.depth == 1:
             return last_action(problem, belief)
-        search = Search(self.depth, self.width, problem.n_items, exact=False, leaf_asks=False)
+        depth = self.depth if problem.model.turns is None else self.depth + 1
+        search = Search(depth, self.width, problem.n_items, exact=False, leaf_asks=False)
         return searched(problem, belief, asked, search, rng=rng, phase=phase)
 
 
