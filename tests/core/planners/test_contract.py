@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, Planner, best_action
+from fetch_pomdp.core.planners.base import MOST_DEPTH, MOST_WIDTH, Decision, Planner, best_action, decide_many
 from fetch_pomdp.core.planners.baselines.paradigms import AlwaysAsk, NeverAsk
 from fetch_pomdp.core.planners.baselines.rules import ChaiRule, InformationGain, OneShot, PaperAlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, PaperNeverAsk, WilliamsYoung
@@ -229,6 +229,19 @@ def test_values_are_finite_and_possible_in_any_model(
     assert min(decision.pick) >= -12.5 - 1e-9
     assert max(values) <= 10 + 1e-9
     assert min(values) >= -6 * depth - 12.5
+
+
+@pytest.mark.parametrize("name", ["fitted", "exact", "sparse", "never", "always", "doshi-roy"])
+def test_a_phase_of_another_model_is_refused(name: str) -> None:
+    """Compiled code would read beside its tables."""
+    with pytest.raises(PlannerError, match="phase: found 4, expected 0 to 0"):
+        PLANNERS[name]().decide(AMBIGUOUS, Belief(UNEVEN), None, rng=np.random.default_rng(0), phase=4)
+    phases = np.array([0, 4])
+    with pytest.raises(PlannerError, match="phases: found 0 to 4, expected"):
+        decide_many(
+            PLANNERS[name](), AMBIGUOUS, np.array([UNEVEN] * 2), np.array([-1, -1]), rng=np.random.default_rng(0),
+            phases=phases,
+        )  # fmt: skip
 
 
 # Choosing among values.

@@ -119,8 +119,14 @@ def unvalued(problem: Problem) -> Vector:
     return np.full(problem.n_items, np.nan)
 
 
-def checked_asked(probabilities: Vector, asked: int | None, problem: Problem) -> int:
-    """Return i_r for compiled code, which checks no index. Raises PlannerError for a belief or i_r of another table."""
+def checked_asked(probabilities: Vector, asked: int | None, problem: Problem, phase: int = 0) -> int:
+    """Return i_r for compiled code, which checks no index.
+
+    Raises PlannerError for a belief or i_r of another table, or a phase of another model.
+    """
+    if not 0 <= phase < len(problem.tables.begun):
+        expected = f"expected 0 to {len(problem.tables.begun) - 1}"
+        raise PlannerError(f"found {phase!r}, {expected} for the problem's model", field="phase")
     about = NOBODY if asked is None else asked
     if len(probabilities) != problem.n_items or not NOBODY <= about < problem.n_items:
         found = f"found a belief over {len(probabilities)} items and a question about item {asked}"
@@ -154,6 +160,12 @@ def decide_many(
     if len(asked) and not NOBODY <= asked.min() <= asked.max() < problem.n_items:
         found = f"found {asked.min()} to {asked.max()}, expected -1 to {problem.n_items - 1}"
         raise PlannerError(found, field="asked")
+    if phases is not None and len(phases):
+        most = len(problem.tables.begun) - 1
+        if not (phases.shape == asked.shape and 0 <= phases.min() <= phases.max() <= most):
+            raise PlannerError(
+                f"found {phases.min()} to {phases.max()}, expected (k,) from 0 to {most}", field="phases"
+            )
     if isinstance(planner, BatchPlanner):
         return planner.decide_many(
             problem, np.ascontiguousarray(beliefs), asked.astype(np.int64), rng=rng, phases=phases

@@ -104,7 +104,7 @@ class FittedValue:
         started = time.perf_counter()
         if problem.n_items > MOST_FITTED:
             return ExactAnswers().decide(problem, belief, asked, rng=rng, phase=phase)
-        about = checked_asked(belief.probabilities, asked, problem)
+        about = checked_asked(belief.probabilities, asked, problem, phase)
         known = solution(problem, self)
         probabilities = sharpened(belief.probabilities, known.power)
         pick = pick_values(probabilities, problem)

@@ -149,7 +149,7 @@ def searched(
     """
     _announce_loading()
     probabilities = belief.probabilities
-    about = checked_asked(probabilities, asked, problem)
+    about = checked_asked(probabilities, asked, problem, phase)
     seed = int(rng.random() * 2.0**53)
     found = plan(probabilities, about, phase, search, seed, tables or problem.tables)
     wait, point, pick, wait_error, point_errors = found
