@@ -13,7 +13,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.explanation import deed
 from fetch_pomdp.core.gesture import angles
-from fetch_pomdp.core.interaction import texts
+from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.observation import Observation

@@ -10,6 +10,7 @@ from numpy.random import Generator
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core import gesture
 from fetch_pomdp.core.action import Action, Wait
+from fetch_pomdp.core.alternatives import Alternative, together
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
@@ -23,11 +24,13 @@ from fetch_pomdp.errors import ObservationError
 class Observation:
     """The words heard in a step, as `words.tokenize` gives them, and the pointing ray seen, if any.
 
+    alternatives: every reading of the words with its probability, these words among them; none where one is certain.
     Raises ObservationError for anything else, such as a text in place of its words.
     """
 
     words: tuple[str, ...] = ()
     ray: Ray | None = None
+    alternatives: tuple[Alternative, ...] = ()
 
     def __post_init__(self) -> None:
         if type(self.words) is not tuple:
@@ -37,6 +40,17 @@ class Observation:
                 raise ObservationError(f"found {shown(word)}, expected a word", field=f"words[{index}]")
         if self.ray is not None and not isinstance(self.ray, Ray):
             raise ObservationError(f"found {shown(self.ray)}, expected a Ray or None", field="ray")
+        if self.alternatives:
+            _check(self.alternatives, self.words)
+
+
+def _check(alternatives: tuple[Alternative, ...], words: tuple[str, ...]) -> None:
+    """Raise ObservationError for alternatives that are no distribution over readings, or leave out the words."""
+    total = sum(each.weight for each in alternatives)
+    if abs(total - 1.0) > 1e-6:
+        raise ObservationError(f"found weights that sum to {total:.6g}, expected 1", field="alternatives")
+    if words not in [each.words for each in alternatives]:
+        raise ObservationError(f"found none with {shown(words)}, expected the words among them", field="alternatives")
 
 
 def _in_a_tuple(words: object) -> tuple[str, ...]:
@@ -64,14 +78,17 @@ def log_likelihoods(observation: Observation, asked: int | None, problem: Proble
     """Log p(o | i_d, i_r) for each item as the desired one (Eq. 1-3), part by part: given the state they are
     independent.
 
-    asked: index of i_r, or None. chances: of the step, see `Problem.step_chances`.
+    asked: index of i_r, or None. chances: of the step, see `Problem.step_chances`. Alternatives are taken together as
+    `alternatives` says.
     """
-    utterance = unigram.split(observation.words, problem)
-    return Parts(
-        unigram.base_log_likelihood(utterance.base, problem),
-        unigram.response_log_likelihood(utterance.response, asked, problem, chances),
-        gesture.log_likelihood(observation.ray, problem),
-    )
+    readings = [each.words for each in observation.alternatives] or [observation.words]
+    utterances = [unigram.split(words, problem) for words in readings]
+    words = [unigram.base_log_likelihood(utterance.base, problem) for utterance in utterances]
+    answers = [unigram.response_log_likelihood(utterance.response, asked, problem, chances) for utterance in utterances]
+    pointing = gesture.log_likelihood(observation.ray, problem)
+    if len(readings) == 1:
+        return Parts(words[0], answers[0], pointing)
+    return Parts(*together([each.weight for each in observation.alternatives], words, answers, asked), pointing)
 
 
 def sample(desired: int, asked: int | None, problem: Problem, chances: StepChances, rng: Generator) -> Observation:

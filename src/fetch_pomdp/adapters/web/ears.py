@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fetch_pomdp.adapters.speech.espeak import Voice
+from fetch_pomdp.adapters.speech.foreground import Foreground
 from fetch_pomdp.adapters.speech.silero import Silero, model
 from fetch_pomdp.adapters.speech.stream import StreamingRecognizer
 from fetch_pomdp.adapters.speech.utterances import Detector
@@ -38,7 +39,7 @@ class Hearing:
 
     def detector(self) -> Detector:
         """Return a voice detector for one stream."""
-        return Silero(self._model)
+        return Foreground(Silero(self._model))
 
     def close(self) -> None:
         """End the process."""

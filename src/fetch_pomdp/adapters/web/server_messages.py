@@ -10,7 +10,8 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.explain import even
-from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED, texts
+from fetch_pomdp.core.hearing import texts
+from fetch_pomdp.core.interaction import FAILED, LISTENING, OBJECTED
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
