@@ -13,6 +13,7 @@ from urllib.parse import quote
 
 import typer
 
+from fetch_pomdp.cli.options import Ears
 from fetch_pomdp.cli.participants import DATABASE
 from fetch_pomdp.errors import InputError
 
@@ -57,6 +58,7 @@ def serve_page(
     no_insight: Insight = False,
     study: StudyFile = None,
     database: Database = None,
+    ears: Ears = None,
     researcher_token: ResearcherToken = None,
 ) -> None:
     """Open a page on which people talk to the robot, type to it and point. Stop with Ctrl-C.
@@ -65,7 +67,7 @@ def serve_page(
     """
     from fetch_pomdp.adapters.web.connection_manager import ServerConfig
     from fetch_pomdp.adapters.web.conversations import ConversationOpener
-    from fetch_pomdp.adapters.web.ears import speech_if_installed
+    from fetch_pomdp.adapters.web.ears import speech_if_installed, speech_with
     from fetch_pomdp.adapters.web.page_messages import scene_asked_for
     from fetch_pomdp.adapters.web.server import create_app, serve
 
@@ -73,7 +75,8 @@ def serve_page(
     _check_token(researcher_token, "--researcher-token")
     _check_combination(scene, study, {"--data": data, "--database": database, "--researcher-token": researcher_token})
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
-    config, speech = ServerConfig(scene=scene_asked_for(scene), token=token), speech_if_installed()
+    config = ServerConfig(scene=scene_asked_for(scene), token=token)
+    speech = speech_if_installed() if ears is None else speech_with(ears)
     addresses = [f"The robot is at {address_of(host, port, '', token)}  (Ctrl-C ends it)"]
     opener: ConversationOpener | StudyApp
     if study is None:

@@ -6,7 +6,6 @@ import logging
 import math
 import re
 import tempfile
-from collections import deque
 from collections.abc import Mapping, Sequence
 from itertools import islice
 from pathlib import Path
@@ -17,10 +16,9 @@ import numpy as np
 from fetch_pomdp.adapters.speech.audio import Samples, Sound
 from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
 from fetch_pomdp.adapters.speech.denoise import denoise
-from fetch_pomdp.adapters.speech.foreground import Foreground
 from fetch_pomdp.adapters.speech.pronunciation import pronounce
-from fetch_pomdp.adapters.speech.silero import Silero, model
-from fetch_pomdp.adapters.speech.utterances import Utterance, Utterances
+from fetch_pomdp.adapters.speech.recorded import SoundRecognizer
+from fetch_pomdp.adapters.speech.utterances import Utterance
 from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.extras import load
@@ -90,39 +88,11 @@ class SphinxTranscriber:
         return tuple(Alternative(words, weight) for (words, _), weight in found if weight > LEAST_WEIGHT)
 
 
-class SphinxRecognizer:
-    """Ears over a Sound. Implements Recognizer.
-
-    A word is given when its utterance has ended, so `hear` may listen on past its time while someone is speaking, by up
-    to 10 s; words that end later than that time are kept for the next call.
-    Raises MissingExtraError without pocketsphinx or onnxruntime.
-    """
+class SphinxRecognizer(SoundRecognizer):
+    """Ears over a Sound. Implements Recognizer. Raises MissingExtraError without pocketsphinx or onnxruntime."""
 
     def __init__(self, sound: Sound, vocabulary: Sequence[str]) -> None:
-        self._utterances = Utterances(sound, Foreground(Silero(model())))
-        self._transcriber = SphinxTranscriber(vocabulary)
-        self._heard: deque[Word] = deque()
-        self._spoken = (0.0, 0.0)  # s, the last utterance with words in it
-
-    def hear(self, until: float) -> list[Word]:
-        """Listen until the stream's time `until` (s); see Recognizer. Raises AudioError for a stream that breaks."""
-        self._listen(until)
-        words = []
-        while self._heard and self._heard[0].end <= until:
-            words.append(self._heard.popleft())
-        return words
-
-    def utterance_end(self, time: float) -> float:
-        """Return when (s) the utterance ends that goes on at a time; see UtteranceRecognizer."""
-        self._listen(time)
-        begin, end = self._spoken
-        return end if begin <= time < end else time
-
-    def _listen(self, until: float) -> None:
-        while not self._utterances.ended and self._utterances.settled < until:
-            if (utterance := self._utterances.step()) and (words := self._transcriber.next_words(utterance)):
-                self._heard.extend(words)
-                self._spoken = words[0].start, words[-1].end
+        super().__init__(sound, SphinxTranscriber(vocabulary).next_words)
 
 
 def _word(segment: Segment, start: float, readings: tuple[Alternative, ...]) -> Word:
