@@ -11,6 +11,7 @@ import pytest
 
 from fetch_pomdp.adapters.speech.audio import open_raw
 from fetch_pomdp.adapters.speech.choice import recognizer, transcribers
+from fetch_pomdp.adapters.speech.utterances import Utterance
 from fetch_pomdp.core.ports import UtteranceRecognizer
 from fetch_pomdp.errors import AudioError, InputError
 from tests.adapters.speech.sounds import DATA, VOCABULARY, samples_of, with_noise
@@ -59,6 +60,19 @@ def test_a_server_loads_a_model_once(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_other_names_are_answered_with_the_known_ones(ears: str) -> None:
     with pytest.raises(InputError, match="expected sphinx, whisper:MODEL or vosk:DIR"):
         transcribers(ears)
+
+
+def test_two_are_heard_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "faster_whisper", LIBRARIES["whisper"])
+    monkeypatch.setitem(sys.modules, "vosk", LIBRARIES["vosk"])
+    words = (
+        transcribers("whisper:tiny.en+vosk:a+b")
+        .transcriber(VOCABULARY)
+        .words(Utterance(0.0, np.zeros(32_000, np.int16)))
+    )
+    readings = {each.words: each.weight for each in words[0].readings}
+    assert set(readings) == {("hand", "me", "marker"), ("hand", "marker"), ()}
+    assert sum(readings.values()) == pytest.approx(1.0)
 
 
 def test_a_model_that_cannot_be_fetched_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
