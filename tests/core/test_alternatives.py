@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fetch_pomdp.core.action import Point
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.belief import Belief
@@ -95,6 +96,18 @@ def test_evidence_adds_up_to_the_belief() -> None:
     sums = agent.evidence.prior + agent.evidence.words + agent.evidence.answers + agent.evidence.pointing
     log = np.log(agent.belief)
     assert list(sums - sums[0]) == pytest.approx(list(log - log[0]))
+
+
+def test_where_the_talk_stands_is_what_most_readings_say() -> None:
+    agent = Agent(live_scene("ambiguous"))
+    agent.update(heard(("man money", 0.4), ("marker money", 0.35), ("the marker", 0.25)))
+    assert agent.problem.tables.begun[agent.phase], "a request, though the likeliest reading is none"
+    agent.did(Point(2))
+    agent.update(heard(("who", 0.4), ("no", 0.35), ("nope", 0.25)))
+    assert agent.evidence.unanswered is None
+    again = Agent(live_scene("ambiguous"))
+    again.update(heard(("marker", 0.4), ("man", 0.6)))
+    assert not again.problem.tables.begun[again.phase]
 
 
 def test_what_is_impossible_in_every_reading_stays_impossible() -> None:

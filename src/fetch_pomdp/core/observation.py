@@ -98,20 +98,37 @@ def sample(desired: int, asked: int | None, problem: Problem, chances: StepChanc
     return Observation(base + response, gesture.sample(desired, problem, chances.points, rng))
 
 
+class Meant(NamedTuple):
+    """What was most likely said, of all readings together."""
+
+    words: bool  # whether words about the item
+    answer: int  # SILENT, YES or NO
+
+
+def meant(observation: Observation, problem: Problem) -> Meant:
+    """Return what was most likely said: of ten readings with the item's word, each may be less likely than one without.
+
+    Of several responses in a reading the last counts.
+    """
+    words, answers = 0.0, [0.0, 0.0, 0.0]
+    for reading in observation.alternatives or (Alternative(observation.words, 1.0),):
+        utterance = unigram.split(reading.words, problem)
+        answer = SILENT if not utterance.response else YES if utterance.response[-1] in POSITIVE else NO
+        answers[answer] += reading.weight
+        words += reading.weight * bool(utterance.base)
+    return Meant(words > 0.5, answers.index(max(answers)))
+
+
 def phase_after(
     observation: Observation, action: Action, problem: Problem, phase: int = 0, *, asked: int | None
 ) -> int:
     """Return the phase (`turns`) that a step leads to which began with an action.
 
-    asked: i_r in the step, for words that answer nothing change nothing. Of several responses the last counts. The
-    paper's one phase stays.
+    asked: i_r in the step, for words that answer nothing change nothing. The paper's one phase stays.
     """
     if problem.model.turns is None:
         return phase
-    utterance = unigram.split(observation.words, problem)
-    answer = SILENT
-    if utterance.response and asked is not None:
-        answer = YES if utterance.response[-1] in POSITIVE else NO
+    heard = meant(observation, problem)
     seen = observation.ray is not None and gesture.is_pointing(observation.ray, problem)
-    following = problem.tables.following[phase, int(not isinstance(action, Wait)), int(bool(utterance.base)), int(seen)]
-    return int(following[answer])
+    following = problem.tables.following[phase, int(not isinstance(action, Wait)), int(heard.words), int(seen)]
+    return int(following[SILENT if asked is None else heard.answer])
