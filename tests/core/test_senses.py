@@ -8,10 +8,11 @@ import pytest
 
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.gesture import angles
+from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.language.answers import PAPER, After
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Frame
-from fetch_pomdp.core.senses import Senses, StreamPace, median_ray, pointing_arms, texts
+from fetch_pomdp.core.senses import Senses, StreamPace, median_ray, pointing_arms
 from fetch_pomdp.errors import ObservationError
 from tests.core.staged import HEAD, Ears, Eyes, frame, towards
 

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.model import Model, Rewards
@@ -57,8 +58,20 @@ rays = st.none() | st.tuples(points, points).filter(
 words = st.lists(
     st.builds(Word, st.sampled_from(["marker", "uh"]), coordinates, coordinates, st.floats(0, 1)), max_size=3
 )
+uncertain = st.lists(st.tuples(texts, st.floats(0.01, 1)), min_size=2, max_size=4, unique_by=lambda one: one[0]).map(
+    lambda readings: Observation(
+        readings[0][0],
+        None,
+        tuple(Alternative(said, weight / sum(one[1] for one in readings)) for said, weight in readings),
+    )
+)
 events: st.SearchStrategy[Event] = st.builds(
-    Observed, st.builds(Observation, texts, rays), words.map(tuple), times, early=st.booleans(), anew=st.booleans()
+    Observed,
+    st.builds(Observation, texts, rays) | uncertain,
+    words.map(tuple),
+    times,
+    early=st.booleans(),
+    anew=st.booleans(),
 ) | st.builds(Acted, actions, st.sampled_from(Outcome), st.none(), times, st.none() | st.integers(1, 99))
 
 
@@ -66,7 +79,7 @@ events: st.SearchStrategy[Event] = st.builds(
 def test_events_survive_a_round_trip(event: Event) -> None:
     line = json.dumps(event_to_json(event, SCENE))
     found = event_from_json(json.loads(line), SCENE)
-    if isinstance(event, Observed) and event.words and not event.observation.words:
+    if isinstance(event, Observed) and event.words and not (event.observation.words or event.observation.alternatives):
         assert isinstance(found, Observed)
         assert found.words == event.words, "an utterance of null is that of its words"
     else:
@@ -343,6 +356,19 @@ def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: 
         (
             {"observation": {"words": [{"text": "a", "start": 0, "end": 1, "posterior": 2}]}},
             "observation.words[0].posterior: found 2, expected a probability",
+        ),
+        ({"observation": {"alternatives": "no"}}, "observation.alternatives: found 'no', expected a list"),
+        (
+            {"observation": {"utterance": "no", "alternatives": [{"utterance": "no", "weight": 0}]}},
+            "observation.alternatives[0].weight: found 0",
+        ),
+        (
+            {"observation": {"utterance": "no", "alternatives": [{"utterance": "no", "weight": 0.5}]}},
+            "observation.alternatives: found weights that sum to 0.5, expected 1",
+        ),
+        (
+            {"observation": {"alternatives": [{"utterance": "no", "weight": 1}]}},
+            "observation.alternatives: found none with (), expected the words among them",
         ),
         ({"observation": {}, "time": 3}, "time: unknown field"),
         ({"observation": {}, "early": 1}, "early: found 1, expected true or false"),

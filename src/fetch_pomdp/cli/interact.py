@@ -16,7 +16,7 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
-from fetch_pomdp.cli.options import Budget, Depth, Json, ModelFile, PlannerName, SceneName, Seed, Width, loaded
+from fetch_pomdp.cli.options import Budget, Depth, Ears, Json, ModelFile, PlannerName, SceneName, Seed, Width, loaded
 from fetch_pomdp.cli.show import show_event
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.action import Pick
@@ -63,6 +63,7 @@ def fetch(
     audio: Audio = None,
     skeleton: Skeleton = None,
     rate: Rate = 16_000,
+    ears: Ears = None,
     planner: PlannerName = None,
     depth: Depth = None,
     width: Width = None,
@@ -96,12 +97,14 @@ def fetch(
     console = Terminal(stderr=json_lines)
     with contextlib.ExitStack() as open_files:
         typed = audio is None and skeleton is None
-        ears, eyes = _typed(table, console) if typed else _sensors(table, audio, skeleton, rate)
+        if ears is not None and audio is None:
+            raise InputError("found it without --audio, expected something to hear", field="--ears")
+        words, eyes = _typed(table, console) if typed else _sensors(table, audio, skeleton, rate, ears or "sphinx")
         prepare(agent.planner, agent.problem)
         record = open_files.enter_context(EventLog.create(log, header)) if log else None
         said: list[str] = []
         timing, steps = (TYPED, sys.maxsize) if typed else (RECORDED, MOST_STEPS)
-        events = interact(agent, ConsoleRobot(said.append), ears, eyes, timing=timing, most_steps=steps)
+        events = interact(agent, ConsoleRobot(said.append), words, eyes, timing=timing, most_steps=steps)
         _follow(_recorded(events, record), agent, said, console, json_lines=json_lines)
 
 
@@ -117,7 +120,7 @@ def _typed(scene: Scene, console: Console) -> tuple[Recognizer, SkeletonSource]:
 
 
 def _sensors(
-    scene: Scene, audio: str | None, skeleton: str | None, rate: int
+    scene: Scene, audio: str | None, skeleton: str | None, rate: int, ears: str
 ) -> tuple[Recognizer | None, SkeletonSource | None]:
     if audio == skeleton == STREAM:
         raise InputError("found - for both --audio and --skeleton, expected one of them from standard input")
@@ -125,14 +128,14 @@ def _sensors(
     if skeleton is not None:
         opened = RecordedSkeleton.stream(sys.stdin.buffer) if skeleton == STREAM else RecordedSkeleton.open(skeleton)
         eyes = opened
-    return _ears(scene, audio, rate), eyes
+    return _hearing(scene, audio, rate, ears), eyes
 
 
-def _ears(scene: Scene, audio: str | None, rate: int) -> Recognizer | None:
+def _hearing(scene: Scene, audio: str | None, rate: int, ears: str) -> Recognizer | None:
     if audio is None:
         return None
     from fetch_pomdp.adapters.speech.audio import open_microphone, open_raw, open_wav
-    from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
+    from fetch_pomdp.adapters.speech.choice import recognizer
     from fetch_pomdp.adapters.speech.stream import listened_for
 
     if audio == MICROPHONE:
@@ -141,7 +144,7 @@ def _ears(scene: Scene, audio: str | None, rate: int) -> Recognizer | None:
         sound = open_raw(sys.stdin.buffer, rate, "standard input")
     else:
         sound = open_wav(audio)
-    return SphinxRecognizer(sound, listened_for(scene))
+    return recognizer(ears, sound, listened_for(scene))
 
 
 def _recorded(events: Iterator[Event], record: EventLog | None) -> Iterator[Event]:

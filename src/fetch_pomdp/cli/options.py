@@ -30,6 +30,12 @@ ModelFile = Annotated[
         "--model", metavar="MODEL.toml", help="Parameters in place of the scene's, as `calibrate` writes them."
     ),
 ]
+Ears = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME", help="What hears: sphinx, whisper:MODEL or vosk:DIR (docs/speech.md).  [default: sphinx]"
+    ),
+]
 Seed = Annotated[int | None, typer.Option(min=0, help="The same seed gives the same result.  [default: 0]")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 

@@ -16,6 +16,7 @@ from urllib.parse import quote
 
 import typer
 
+from fetch_pomdp.cli.options import Ears
 from fetch_pomdp.cli.participants import DATABASE
 from fetch_pomdp.errors import InputError
 
@@ -66,6 +67,7 @@ def serve_page(
     no_insight: Insight = False,
     study: StudyFile = None,
     database: Database = None,
+    ears: Ears = None,
     researcher_token: ResearcherToken = None,
     preview: Preview = False,
 ) -> None:
@@ -75,7 +77,7 @@ def serve_page(
     """
     from fetch_pomdp.adapters.web.connection_manager import ServerConfig
     from fetch_pomdp.adapters.web.conversations import ConversationOpener
-    from fetch_pomdp.adapters.web.ears import speech_if_installed
+    from fetch_pomdp.adapters.web.ears import speech_if_installed, speech_with
     from fetch_pomdp.adapters.web.page_messages import scene_asked_for
     from fetch_pomdp.adapters.web.server import create_app, serve
 
@@ -84,7 +86,8 @@ def serve_page(
     given = {"--data": data, "--database": database, "--researcher-token": researcher_token}
     _check_combination(scene, study, given, preview=preview)
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
-    config, speech = ServerConfig(scene=scene_asked_for(scene), token=token), speech_if_installed()
+    config = ServerConfig(scene=scene_asked_for(scene), token=token)
+    speech = speech_if_installed() if ears is None else speech_with(ears)
     addresses = [f"The robot is at {address_of(host, port, '', token)}  (Ctrl-C ends it)"]
     opener: ConversationOpener | StudyApp
     with _kept_at(database, preview=preview) as url:

@@ -13,11 +13,11 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.explanation import deed
 from fetch_pomdp.core.gesture import angles
+from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.senses import texts
 
 BAR = 28  # characters of a belief of 1
 MOST_BARS = 8  # items shown of a larger scene, the likeliest

@@ -32,7 +32,7 @@ from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.core.turns import StepChances, constant_chances
+from fetch_pomdp.core.turns import SILENT, StepChances, constant_chances
 from fetch_pomdp.errors import ActionError, ObservationError, PlannerError
 
 
@@ -142,7 +142,8 @@ class Agent:
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
         self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase, asked=self.asked)
         self._acted = Wait()
-        self._evidence = self._evidence.plus(parts, answered=bool(utterance.response))
+        answered = observations.meant(observation, self.problem).answer != SILENT
+        self._evidence = self._evidence.plus(parts, answered=answered)
         self._steps += 1
         return utterance
 

@@ -28,15 +28,15 @@ from dataclasses import dataclass
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.hearing import texts, understood
 from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader
 from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.names import is_name
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import COURTESY
-from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Outcome, Recognizer, Robot, SkeletonSource
-from fetch_pomdp.core.senses import Pace, Senses, StreamPace, texts
+from fetch_pomdp.core.senses import Pace, Senses, StreamPace
 from fetch_pomdp.core.simulation import MOST_STEPS
 from fetch_pomdp.errors import ModelError
 
@@ -187,7 +187,7 @@ class _Interaction:
                 self._agent.take(observed)
                 yield observed
                 return
-            asked = Observation(self._answers.read(words, After.NOTHING).words, ray)
+            asked = understood(observed.words, self._answers, After.NOTHING, ray)
             if split(asked.words, self._agent.problem).base or (ray is not None and self._lowered):
                 begun = dataclasses.replace(observed, observation=asked, anew=True)
                 self._agent.take(begun)
@@ -207,12 +207,12 @@ class _Interaction:
 
     def _reply(self, observed: Observed, *, waited: bool) -> None:
         """Say what a person has to know who was not understood, or who is silent."""
-        understood = split(observed.observation.words, self._agent.problem)
+        said = split(observed.observation.words, self._agent.problem)
         silent = waited and not observed.observation.words and self._agent.after is After.NOTHING
         self._silence = self._silence + self._timing.wait if silent else 0.0
-        if understood.meaning is Meaning.CANCEL and not understood.base:
+        if said.meaning is Meaning.CANCEL and not said.base:
             self._robot.say(CANCELLED)
-        elif not (understood.base or understood.meaning) and set(understood.unknown) - COURTESY - AROUND:
+        elif not (said.base or said.meaning) and set(said.unknown) - COURTESY - AROUND:
             self._robot.say(not_understood(self._agent.problem.words))
         elif self._silence >= self._timing.silence:
             self._robot.say(LISTENING)

@@ -11,17 +11,23 @@ from enum import Enum
 from typing import Protocol, runtime_checkable
 
 from fetch_pomdp.checks import Point3
+from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.scene import Item
 
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """A word as it was heard, lower case."""
+    """A word as it was heard, lower case.
+
+    readings: of the whole utterance that it is a word of, the first with the words as they were heard; all words of an
+    utterance share one tuple. None where the recogniser knows of no other reading.
+    """
 
     text: str
     start: float  # s
     end: float  # s
     posterior: float = 1.0  # the recogniser's own probability that it was this word
+    readings: tuple[Alternative, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,9 +18,8 @@ from fetch_pomdp.checks import FARTHEST
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Observed
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.hearing import texts, understood
 from fetch_pomdp.core.language.answers import After, AnswerReader
-from fetch_pomdp.core.language.words import tokenize
-from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Frame, Recognizer, SkeletonSource, UtteranceRecognizer, Word
 from fetch_pomdp.core.problem import Problem
@@ -63,14 +62,14 @@ class Senses:
     def answers(self, time: float, reader: AnswerReader, after: After) -> Observed | None:
         """Return the answers said since the last call, if any; other words mean the same later, and are kept."""
         words = tuple(self._ears.hear(time)) if self._ears else ()
-        places = [index for index, word in enumerate(words) for _ in tokenize(word.text)]
+        places = [index for index, word in enumerate(words) for _ in texts([word])]
         answering = {places[index] for index in reader.answering(texts(words))}
         answers = tuple(words[index] for index in sorted(answering))
         self._kept += tuple(word for index, word in enumerate(words) if index not in answering)
         if not answers:
             return None
         self._answered = answers[-1].end
-        return Observed(Observation(reader.read(texts(answers), after).words), answers, time, early=True)
+        return Observed(understood(answers, reader, after), answers, time, early=True)
 
     def perceive(self, due: float, reader: AnswerReader, after: After) -> Observed:
         """Listen until `due` (s), or on to the end of an utterance that goes on then; return what was said and seen
@@ -80,11 +79,12 @@ class Senses:
             due = self._ears.utterance_end(due)
         fresh = tuple(self._ears.hear(due)) if self._ears else ()
         rest = _continuing(fresh, self._answered)
-        read = texts(rest) + reader.read(texts(self._kept + fresh[len(rest) :]), after).words
-        words, self._kept, self._answered = self._kept + fresh, (), None
+        unread, words = self._kept + fresh[len(rest) :], self._kept + fresh
+        self._kept, self._answered = (), None
         time = self._pace.time(due)
         frames = self._eyes.see(time) if self._eyes else ()
-        return Observed(Observation(read, median_ray(frames, self._problem)), words, time)
+        ray = median_ray(frames, self._problem)
+        return Observed(understood(unread, reader, after, ray, before=texts(rest)), words, time)
 
 
 def _continuing(words: Sequence[Word], end: float | None) -> tuple[Word, ...]:
@@ -96,11 +96,6 @@ def _continuing(words: Sequence[Word], end: float | None) -> tuple[Word, ...]:
         rest.append(word)
         end = word.end
     return tuple(rest)
-
-
-def texts(words: Sequence[Word]) -> tuple[str, ...]:
-    """Return the words of an utterance as they were heard."""
-    return tuple(text for word in words for text in tokenize(word.text))
 
 
 def median_ray(frames: Sequence[Frame], problem: Problem) -> Ray | None:

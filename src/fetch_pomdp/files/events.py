@@ -9,6 +9,7 @@ from typing import Any
 from fetch_pomdp import checks
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
+from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language.words import tokenize
@@ -63,7 +64,7 @@ def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
 
 
 def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
-    checks.known(data, ("utterance", "words", "head", "wrist", "spoken"), "field", EventError)
+    checks.known(data, ("utterance", "words", "alternatives", "head", "wrist", "spoken"), "field", EventError)
     utterance, spoken = (_text(data.get(name), name) for name in ("utterance", "spoken"))
     words = _words(data.get("words"))
     if utterance is None:
@@ -74,13 +75,33 @@ def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
         raise EventError("found none, expected head and wrist, or neither", field=missing)
     ray = None if head is None or wrist is None else Ray(head, wrist)
     said = None if spoken is None else tokenize(spoken)
-    return Observed(Observation(tokenize(utterance), ray), words, time, said)
+    alternatives = _alternatives(data.get("alternatives"))
+    return Observed(Observation(tokenize(utterance), ray, alternatives), words, time, said)
 
 
 def _text(value: object, field: str) -> str | None:
     if value is not None and not isinstance(value, str):
         raise EventError(f"found {shown(value)}, expected text or null", field=field)
     return value
+
+
+def _alternatives(value: object) -> tuple[Alternative, ...]:
+    if value is None:
+        return ()
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        raise EventError(f"found {shown(value)}, expected a list of alternatives", field="alternatives")
+    return tuple(_alternative(fields, f"alternatives[{index}]") for index, fields in enumerate(value))
+
+
+def _alternative(value: object, path: str) -> Alternative:
+    try:
+        data = checks.mapping(value, "", EventError)
+        checks.known(data, ("utterance", "weight"), "field", EventError)
+        checks.required(data, ("utterance", "weight"), EventError)
+        weight = checks.within(data["weight"], 0.0, 1.0, "weight", "a probability above 0", EventError)
+        return Alternative(tokenize(_text(data["utterance"], "utterance") or ""), weight)
+    except InputError as error:
+        raise error.within(path) from None
 
 
 def _words(value: object) -> tuple[Word, ...]:
@@ -139,11 +160,16 @@ def action_to_json(action: Action, scene: Scene) -> dict[str, Any]:
 
 def _observed_to_json(event: Observed) -> dict[str, Any]:
     observation = event.observation
-    fields: dict[str, Any] = {"utterance": " ".join(observation.words) or None}
+    nothing = "" if observation.alternatives else None  # null is what `words` say
+    fields: dict[str, Any] = {"utterance": " ".join(observation.words) or nothing}
     if event.words:
         fields["words"] = [
             {"text": word.text, "start": word.start, "end": word.end, "posterior": word.posterior}
             for word in event.words
+        ]
+    if observation.alternatives:
+        fields["alternatives"] = [
+            {"utterance": " ".join(each.words) or None, "weight": each.weight} for each in observation.alternatives
         ]
     if observation.ray is not None:
         fields |= {"head": list(observation.ray.head), "wrist": list(observation.ray.wrist)}

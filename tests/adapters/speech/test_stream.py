@@ -232,11 +232,14 @@ def test_what_the_robot_says_itself_is_not_heard() -> None:
 
 def test_the_words_are_those_of_the_recogniser_of_recordings() -> None:
     pytest.importorskip("pocketsphinx")
+    pytest.importorskip("onnxruntime")
+    from fetch_pomdp.adapters.speech.foreground import Foreground
+    from fetch_pomdp.adapters.speech.silero import Silero, model
     from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer, SphinxTranscriber
 
     request = with_noise(samples_of(DATA / "marker.wav"))
     request = request[: len(request) // 160 * 160]
-    ears = Ears(SphinxTranscriber(VOCABULARY))
+    ears = Ears(SphinxTranscriber(VOCABULARY), Foreground(Silero(model())))
     ears.feed(request)
     ears.stream.end()
     recorded = SphinxRecognizer(open_raw(io.BytesIO(request.tobytes())), VOCABULARY).hear(60.0)

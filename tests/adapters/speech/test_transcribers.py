@@ -16,7 +16,8 @@ import pytest
 from fetch_pomdp.adapters.speech.transcriber import Transcriber
 from fetch_pomdp.adapters.speech.utterances import Utterance
 from fetch_pomdp.adapters.speech.vosk import VoskTranscriber
-from fetch_pomdp.adapters.speech.whisper import WhisperTranscriber
+from fetch_pomdp.adapters.speech.whisper import WhisperTranscriber, bounded
+from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError, MissingExtraError
 from tests.adapters.speech.sounds import DATA, VOCABULARY, samples_of, with_noise
 
@@ -63,6 +64,9 @@ class Segment:
     """As faster_whisper's Segment, as far as it is read."""
 
     words: list[Spoken] | None
+    avg_logprob: float = -0.3
+    no_speech_prob: float = 0.1
+    compression_ratio: float = 1.0
 
 
 class WhisperModel:
@@ -74,7 +78,12 @@ class WhisperModel:
         *,
         language: str,
         beam_size: int,
-        temperature: float,
+        temperature: tuple[float, ...],
+        compression_ratio_threshold: float,
+        log_prob_threshold: float,
+        no_speech_threshold: float,
+        no_repeat_ngram_size: int,
+        max_new_tokens: int,
         condition_on_previous_text: bool,
         word_timestamps: bool,
         hotwords: str,
@@ -84,7 +93,9 @@ class WhisperModel:
         assert np.abs(audio).max() <= 1
         assert word_timestamps
         assert "marker" in hotwords
+        assert max_new_tokens < 30 * len(audio) / 16_000 + 10
         del language, beam_size, temperature, condition_on_previous_text
+        del compression_ratio_threshold, log_prob_threshold, no_speech_threshold, no_repeat_ngram_size
         words = [Spoken(0.5, 0.8, " Hand", 0.9), Spoken(0.8, 1.0, " me,", 0.8), Spoken(1.2, 1.6, " Marker.", 0.99)]
         return [Segment(words), Segment(None)], None
 
@@ -151,10 +162,69 @@ def test_a_folder_that_is_no_model(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     def none(*_: object, **__: object) -> None:
         raise RuntimeError("Unable to open file 'model.bin'")
 
-    monkeypatch.setitem(sys.modules, "faster_whisper", types.SimpleNamespace(WhisperModel=none))
+    monkeypatch.setitem(
+        sys.modules, "faster_whisper", types.SimpleNamespace(WhisperModel=none, available_models=lambda: ["tiny.en"])
+    )
     monkeypatch.setitem(sys.modules, "vosk", types.SimpleNamespace(Model=none))
     for adapter in (WhisperTranscriber, VoskTranscriber):
         with pytest.raises(AudioError, match=r"found no model \(Unable to open file 'model.bin'\)"):
             adapter.open(tmp_path, VOCABULARY)
     with pytest.raises(AudioError, match="found no folder"):
         WhisperTranscriber.open(tmp_path / "none", VOCABULARY)
+
+
+# Whisper says what there is no end of.
+
+
+def said(text: str) -> list[Word]:
+    return [Word(word, 0.3 * k, 0.3 * k + 0.2) for k, word in enumerate(text.split())]
+
+
+@pytest.mark.parametrize(
+    ("heard", "kept"),
+    [
+        ("hand me the marker", "hand me the marker"),
+        ("no no", "no no"),
+        ("no no no no no no no", "no"),
+        ("the spoon the spoon the spoon the spoon please", "the spoon please"),
+        ("hand me the cup " * 12, "hand me the cup"),
+        ("a b a b c", "a b a b c"),
+        ("", ""),
+    ],
+)
+def test_what_is_repeated_without_end_is_said_once(heard: str, kept: str) -> None:
+    assert [word.text for word in bounded(said(heard), 50)] == kept.split()
+
+
+def test_nobody_says_fifty_words_in_two_seconds() -> None:
+    words = bounded(said(" ".join(f"word{k}" for k in range(50))), 14)
+    assert [word.text for word in words] == [f"word{k}" for k in range(14)]
+
+
+class Endless:
+    """As faster_whisper.WhisperModel, in noise."""
+
+    def __init__(self, *segments: object) -> None:
+        self.segments = segments
+
+    def transcribe(self, audio: object, **options: object) -> tuple[list[object], None]:
+        assert options["temperature"] == (0.0, 0.2, 0.4, 0.6), "it decodes anew what loops"
+        return list(self.segments), None
+
+
+def test_whispers_words_are_bounded_in_the_librarys_own_types() -> None:
+    own = pytest.importorskip("faster_whisper.transcribe")
+
+    def segment(text: str, *, likely: float = -0.4, silent: float = 0.1, ratio: float = 1.2) -> object:
+        words = [own.Word(0.1 * k, 0.1 * k + 0.1, f" {word}", 0.5) for k, word in enumerate(text.split())]
+        return own.Segment(0, 0, 0.0, 2.0, text, [], likely, ratio, silent, words, 0.6)
+
+    utterance = Utterance(0.0, np.zeros(32_000, np.int16))
+
+    def heard(*segments: object) -> list[str]:
+        return [word.text for word in WhisperTranscriber(Endless(*segments), VOCABULARY).words(utterance)]
+
+    assert heard(segment("no the marker " * 20)) == ["no", "the", "marker"]
+    assert heard(segment("thank you", likely=-1.4, silent=0.9), segment("no")) == ["no"]
+    assert heard(segment("the the the the", ratio=3.0)) == []
+    assert len(heard(segment(" ".join(f"word{k}" for k in range(60))))) == 14

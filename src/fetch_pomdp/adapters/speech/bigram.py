@@ -23,14 +23,20 @@ REQUESTS = (
     "may i have", "could i have", "can you hand me", "could you give me", "could you please pass me",
     "would you hand me", "please hand me", "please give me", "please pass me", "can you get me", "pick up",
 )  # fmt: skip
-DETERMINERS = {"the": 3.0, "that": 1.0, "this": 1.0, "a": 1.0}  # and how often, relative to each other
+DETERMINERS = {"the": 6.0, "that": 1.0, "this": 1.0, "a": 1.0}  # and how often, relative to each other
 POINTERS = ("that one", "this one", "that", "this")
 PLACES = ("on the left", "on the right", "in the middle", "in front", "in the back", "behind", "over there", "next to")
 ANSWERS = (
-    *POSITIVE, "yes please", "yes that one", "nope", "no not that one", "not that one", "no the other one",
+    *POSITIVE, "yes please", "yes that one", "no not that one", "not that one", "no the other one",
     "the other one", "other one",
 )  # fmt: skip
-COMMON = tokenize(  # and none that sounds like one of our own, as know
+MORE_ANSWERS = (  # such as `language.english` understands
+    "yep", "yes it is", "that's right", "that's it", "that's the one", "correct", "exactly", "okay", "right",
+    "nope", "nah", "not this one", "no it's not", "no it isn't", "no thanks", "no thank you", "that's not it",
+    "wrong one", "not that",
+)  # fmt: skip
+HESITATIONS = ("um", "uh", "er", "well")  # before a request, and before what it is about
+COMMON = tokenize(  # and none that sounds like one of our own, as know and show
     "about after again all also always am an and another any are around as ask at away bad be because been before "
     "best better big book boy but buy by call came car chair child city clean close cold come day did dinner do does "
     "doing done door down drink each eat end even ever every fall family far father feel few find first five floor "
@@ -39,7 +45,7 @@ COMMON = tokenize(  # and none that sounds like one of our own, as know
     "line little live long look lot love made make man many mean meet might mind money month more morning most mother "
     "move much music must my name near never new night nine now number of off office old once only open or our out "
     "outside own paper part people person phone place play point put question read really road room run said same say "
-    "school see seven she shop should show side sit six sleep small so some something soon start stay still stop "
+    "school see seven she shop should side sit six sleep small so some something soon start stay still stop "
     "story street such sun table take talk teacher tell ten than thank thanks them then these they thing think those "
     "three time today together tomorrow tonight town train try turn under until us use very wait walk wall was watch "
     "water way we weather week well went were what when where which while who why will window with woman word work "
@@ -97,7 +103,13 @@ def _links(vocabulary: Sequence[str]) -> Links:
                 links[word][follower] += times / len(every)
 
     say((f"{START} {answer} {END}" for answer in ANSWERS), 3.6)
-    say((f"{START} {answer} {END}" for answer in ("yes", "no")), 2.4)
+    say((f"{START} {answer} {END}" for answer in ("yes", "no")), 4.0)
+    say((f"{START} {answer} {END}" for answer in MORE_ANSWERS), 1.2)
+    say((f"no {request} the" for request in REQUESTS), 0.12)
+    say((f"{START} {sound} {request}" for sound in HESITATIONS for request in REQUESTS), 0.1)
+    say((f"{determiner} {sound}" for determiner in ("the", "a") for sound in ("um", "uh")), 0.06)
+    say((f"{sound} {word}" for sound in ("um", "uh") for word in vocabulary), 0.12)
+    say((f"{START} {sound} {determiner}" for sound in HESITATIONS for determiner in DETERMINERS), 0.1)
     say((f"{START} {pointer} {END}" for pointer in POINTERS), 0.8)
     say((f"{START} {request} {pointer} {END}" for request in REQUESTS for pointer in POINTERS), 0.3)
     for determiner, times in DETERMINERS.items():

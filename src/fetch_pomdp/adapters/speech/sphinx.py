@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import logging
+import math
 import re
 import tempfile
-from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -16,7 +17,9 @@ from fetch_pomdp.adapters.speech.audio import Samples, Sound
 from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
 from fetch_pomdp.adapters.speech.denoise import denoise
 from fetch_pomdp.adapters.speech.pronunciation import pronounce
-from fetch_pomdp.adapters.speech.utterances import Utterance, Utterances
+from fetch_pomdp.adapters.speech.recorded import SoundRecognizer
+from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.extras import load
 
@@ -24,11 +27,17 @@ logger = logging.getLogger(__name__)
 
 Decoder: TypeAlias = Any  # pocketsphinx has no types
 Segment: TypeAlias = Any
+Texts: TypeAlias = tuple[str, ...]
 
 FRAMES = 100.0  # decoder frames a second
 NOISE = -30.0  # dB under the utterance's mean power: the decoder was trained on rooms, and hears badly without one
 SEED = 0
 OTHER_TALK = 0.45  # share of common words above which an utterance is not meant for the robot, and only they are given
+MOST_PATHS = 500  # of the decoder's lattice; many are of the same words
+MOST_READINGS = 10
+LEAST_WEIGHT = 0.001
+SCORE = 1024.0  # the decoder's scores are logarithms over 2^10
+FLATNESS = 12.0  # what these are divided by: sounds of neighbouring frames are not independent of each other
 FILLER = ("<", "[")  # how silence and noises are spelt in the decoder's dictionary
 
 
@@ -51,50 +60,59 @@ class SphinxTranscriber:
         decoder.process_raw(_prepared(utterance.samples).tobytes(), full_utt=True)
         decoder.end_utt()
         segments = [segment for segment in decoder.seg() or () if not segment.word.startswith(FILLER)]
-        words = [_word(segment, utterance.start) for segment in segments]
-        foreign = [word for word in words if word.text in self._foreign]
+        heard = tuple(_text(segment.word) for segment in segments)
+        meant = self._meant(heard)
+        kept = segments if meant == heard else [each for each in segments if _text(each.word) in self._foreign]
+        readings = self._readings(_scored(decoder), meant)
+        return [_word(segment, utterance.start, readings) for segment in kept]
+
+    def _meant(self, words: Texts) -> Texts:
+        """Return the words, or of talk about other things those that say nothing to the robot."""
+        foreign = tuple(word for word in words if word in self._foreign)
         return foreign if len(foreign) > OTHER_TALK * len(words) else words
 
+    def _readings(self, scored: Mapping[Texts, float], best: Texts) -> tuple[Alternative, ...]:
+        """Return the readings of an utterance, the best first; none if it is the only one."""
+        logs = {best: -math.inf}
+        for words, log in scored.items():
+            meant = self._meant(words)
+            logs[meant] = np.logaddexp(logs.get(meant, -math.inf), log / FLATNESS)
+        most = max(logs.values())
+        if most == -math.inf:
+            return ()
+        logs[best] = max(logs[best], most)  # the decoder says so, though it searches another way
+        likely = sorted(logs.items(), key=lambda one: (one[0] != best, -one[1]))[:MOST_READINGS]
+        weights = np.exp([log - most for _, log in likely])
+        weights /= weights.sum()
+        found = zip(likely, weights.tolist(), strict=True)
+        return tuple(Alternative(words, weight) for (words, _), weight in found if weight > LEAST_WEIGHT)
 
-class SphinxRecognizer:
-    """Ears over a Sound. Implements Recognizer.
 
-    A word is given when its utterance has ended, so `hear` may listen on past its time while someone is speaking, by up
-    to 10 s; words that end later than that time are kept for the next call.
-    Raises MissingExtraError without pocketsphinx.
-    """
+class SphinxRecognizer(SoundRecognizer):
+    """Ears over a Sound. Implements Recognizer. Raises MissingExtraError without pocketsphinx or onnxruntime."""
 
     def __init__(self, sound: Sound, vocabulary: Sequence[str]) -> None:
-        self._utterances = Utterances(sound)
-        self._transcriber = SphinxTranscriber(vocabulary)
-        self._heard: deque[Word] = deque()
-        self._spoken = (0.0, 0.0)  # s, the last utterance with words in it
-
-    def hear(self, until: float) -> list[Word]:
-        """Listen until the stream's time `until` (s); see Recognizer. Raises AudioError for a stream that breaks."""
-        self._listen(until)
-        words = []
-        while self._heard and self._heard[0].end <= until:
-            words.append(self._heard.popleft())
-        return words
-
-    def utterance_end(self, time: float) -> float:
-        """Return when (s) the utterance ends that goes on at a time; see UtteranceRecognizer."""
-        self._listen(time)
-        begin, end = self._spoken
-        return end if begin <= time < end else time
-
-    def _listen(self, until: float) -> None:
-        while not self._utterances.ended and self._utterances.settled < until:
-            if (utterance := self._utterances.step()) and (words := self._transcriber.next_words(utterance)):
-                self._heard.extend(words)
-                self._spoken = words[0].start, words[-1].end
+        super().__init__(sound, SphinxTranscriber(vocabulary).next_words)
 
 
-def _word(segment: Segment, start: float) -> Word:
-    text = re.sub(r"\(\d+\)$", "", segment.word)  # "the(2)" is another way to say "the"
-    first, last = segment.start_frame, segment.end_frame + 1
-    return Word(text, start + first / FRAMES, start + last / FRAMES, min(1.0, segment.prob))
+def _word(segment: Segment, start: float, readings: tuple[Alternative, ...]) -> Word:
+    begin, end = (start + frame / FRAMES for frame in (segment.start_frame, segment.end_frame + 1))
+    return Word(_text(segment.word), begin, end, min(1.0, segment.prob), readings if len(readings) > 1 else ())
+
+
+def _text(entry: str) -> str:
+    """Return a word of the dictionary: "the(2)" is another way to say "the"."""
+    return re.sub(r"\(\d+\)$", "", entry)
+
+
+def _scored(decoder: Decoder) -> dict[Texts, float]:
+    """Return the paths of the last utterance, and the log of the acoustic and language model's score of each."""
+    found: dict[Texts, float] = {}
+    for path in islice(decoder.nbest() or (), MOST_PATHS):
+        if path is not None and path.score > 0:
+            words = tuple(_text(word) for word in path.hypstr.split() if not word.startswith(FILLER))
+            found[words] = max(found.get(words, -math.inf), SCORE * math.log(path.score))
+    return found
 
 
 def _decoder(vocabulary: Sequence[str]) -> Decoder:

@@ -22,6 +22,7 @@ QUIETEST = 14.0  # dB, 5 of 32768: below it everything is silence, also digital 
 ONSET, OFFSET = 4.5, 3.0  # dB above the floor where speech begins and ends
 MEMORY = 300  # frames the floor is the minimum of
 PADDING = 30  # frames kept before and after speech, for its quiet consonants
+NOTICED = 4  # frames that a detector may take to notice speech
 PAUSE = 50  # frames of silence that end an utterance
 LONGEST = 1000  # frames; a longer utterance is cut at the quietest of its last MEMORY frames
 
@@ -77,7 +78,7 @@ class Cutter:
         self.speaking = self.speaking or voiced
         self._quiet = 0 if voiced else self._quiet + 1
         if not self.speaking:
-            del self._kept[:-PADDING]
+            del self._kept[: -PADDING - NOTICED]
         elif self._quiet >= PAUSE:
             self.speaking = False
             return self._give(len(self._kept) - PAUSE + PADDING)
@@ -103,9 +104,8 @@ class Cutter:
         return (self._count - len(self._kept)) * FRAME / RATE
 
     def _above_floor(self, frame: Samples) -> float:
-        self._powers.append(float(np.square(np.abs(np.fft.rfft(frame)[BAND])).sum()))
-        power = 2 * sum(self._powers) / len(self._powers) / FRAME**2  # mean square, by Parseval
-        self._levels.append(max(QUIETEST, 10 * math.log10(power + 1)))
+        self._powers.append(power(frame))
+        self._levels.append(max(QUIETEST, 10 * math.log10(sum(self._powers) / len(self._powers) + 1)))
         return self._levels[-1] - min(self._levels)
 
     def _give(self, count: int) -> Utterance:
@@ -114,11 +114,16 @@ class Cutter:
         return Utterance(start, np.concatenate(given))
 
 
+def power(frame: Samples) -> float:
+    """Return the mean square of 10 ms in the band of speech."""
+    return float(2 * np.square(np.abs(np.fft.rfft(frame)[BAND])).sum() / FRAME**2)  # by Parseval
+
+
 class Utterances:
     """The utterances of a Sound, found while it is read."""
 
-    def __init__(self, sound: Sound) -> None:
-        self._sound, self._cutter = sound, Cutter()
+    def __init__(self, sound: Sound, detector: Detector = loud) -> None:
+        self._sound, self._cutter = sound, Cutter(detector)
         self.ended = False
 
     @property

@@ -1,4 +1,4 @@
-"""Transcriber over Vosk (Kaldi), with a model that you bring: a folder of vosk-model-small-en-us, say."""
+"""Transcriber over Vosk (Kaldi), with a model that you bring, or that it fetches: vosk-model-small-en-us-0.15, say."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
 from fetch_pomdp.extras import load
 
+FETCHED = "vosk-model-"  # how the names begin of models that Vosk fetches by itself
 UNKNOWN = "[unk]"  # how Vosk writes a sound that is not one of the words
 CHUNK = RATE // 5  # samples; Vosk may find an end after each, and then gives what came before it
 
@@ -30,13 +31,9 @@ class VoskTranscriber:
 
     @classmethod
     def open(cls, model: str | Path, vocabulary: Sequence[str]) -> Self:
-        """Load a model's folder. Raises MissingExtraError without vosk, AudioError for a folder that is no model."""
-        vosk = load("vosk", "vosk")
-        try:
-            loaded = vosk.Model(str(model))
-        except Exception as error:  # Vosk raises no kind of its own
-            raise AudioError(f"found no model ({error}), expected the folder of one", source=str(model)) from None
-        return cls(lambda words: vosk.KaldiRecognizer(loaded, RATE, words), vocabulary)
+        """Load a model: see `load_model`."""
+        loaded = load_model(model)
+        return cls(_recognizers(loaded), vocabulary)
 
     def words(self, utterance: Utterance) -> list[Word]:
         """Return the words of an utterance; see Transcriber."""
@@ -55,3 +52,26 @@ class VoskTranscriber:
             for word in found
             if word["word"] != UNKNOWN
         ]
+
+
+def load_model(model: str | Path) -> Any:
+    """Load a model: its folder, or a name such as vosk-model-small-en-us-0.15, fetched where there is a network.
+
+    Raises MissingExtraError without vosk, AudioError for a folder that is no model, or a model that cannot be fetched.
+    """
+    vosk = load("vosk", "vosk")
+    by_name = not Path(model).exists() and str(model).startswith(FETCHED)
+    try:
+        return vosk.Model(model_name=str(model)) if by_name else vosk.Model(str(model))
+    except (Exception, SystemExit) as error:  # Vosk raises no kind of its own, and exits where it knows no such name
+        raise AudioError(f"found no model ({error}), expected the folder of one", source=str(model)) from None
+
+
+def transcriber(model: Any, vocabulary: Sequence[str]) -> VoskTranscriber:
+    """Return a Transcriber over a model that is loaded."""
+    return VoskTranscriber(_recognizers(model), vocabulary)
+
+
+def _recognizers(model: Any) -> Callable[[str], Any]:
+    vosk = load("vosk", "vosk")
+    return lambda words: vosk.KaldiRecognizer(model, RATE, words)

@@ -6,7 +6,7 @@ Requests on standard input, a line of JSON and then the samples (16-bit little-e
 JSON on standard output:
 
     {"vocabulary": ["marker"], "start": 1.5, "samples": 8000}
-    {"words": [["marker", 1.8, 2.2, 0.97]]}
+    {"words": [["marker", 1.8, 2.2, 0.97]], "readings": [[["marker"], 0.9], [["mark", "her"], 0.1]]}
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ import numpy as np
 from fetch_pomdp.adapters.speech.sphinx import SphinxTranscriber
 from fetch_pomdp.adapters.speech.transcriber import Transcriber
 from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
 from fetch_pomdp.extras import load
@@ -75,7 +76,8 @@ class _Remote:
     def words(self, utterance: Utterance) -> list[Word]:
         request = {"vocabulary": self._vocabulary, "start": utterance.start, "samples": len(utterance.samples)}
         answer = self._process.ask(request, utterance.samples.astype("<i2").tobytes())
-        return [Word(text, start, end, posterior) for text, start, end, posterior in answer["words"]]
+        readings = tuple(Alternative(tuple(words), weight) for words, weight in answer["readings"])
+        return [Word(text, start, end, posterior, readings) for text, start, end, posterior in answer["words"]]
 
 
 def _exchange(process: subprocess.Popen[bytes], request: bytes) -> dict[str, Any]:
@@ -109,7 +111,8 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
         samples = np.frombuffer(requests.read(2 * request["samples"]), "<i2").astype(np.int16)
         words = _transcriber(tuple(request["vocabulary"])).words(Utterance(request["start"], samples))
         found = [[word.text, word.start, word.end, word.posterior] for word in words]
-        answers.write(json.dumps({"words": found}).encode() + b"\n")
+        readings = [[each.words, each.weight] for each in words[0].readings] if words else []
+        answers.write(json.dumps({"words": found, "readings": readings}).encode() + b"\n")
         answers.flush()
 
 

@@ -8,11 +8,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from fetch_pomdp.adapters.speech.choice import SPHINX, transcribers
 from fetch_pomdp.adapters.speech.espeak import Voice
+from fetch_pomdp.adapters.speech.foreground import Foreground
 from fetch_pomdp.adapters.speech.silero import Silero, model
 from fetch_pomdp.adapters.speech.stream import StreamingRecognizer
 from fetch_pomdp.adapters.speech.utterances import Detector
-from fetch_pomdp.adapters.speech.worker import SphinxProcess
 from fetch_pomdp.adapters.web.page_messages import LARGEST_MESSAGE
 from fetch_pomdp.core.live import Inbox, SensorStatus, State
 from fetch_pomdp.core.live.vitals import TEXTS
@@ -27,18 +28,18 @@ AGAIN = 5.0  # s until the ears are tried again that did not open
 
 
 class Hearing:
-    """What all ears of a server share: a recogniser's process and a voice detector.
+    """What all ears of a server share: a recogniser and a voice detector. ears: which, as `--ears` names it.
 
-    Raises MissingExtraError without the extra `speech`.
+    Raises MissingExtraError without the extra `speech`, or that of the ears; see `choice.transcribers`.
     """
 
-    def __init__(self) -> None:
-        self.process = SphinxProcess()
+    def __init__(self, ears: str = SPHINX) -> None:
+        self.process = transcribers(ears)
         self._model: Any = model()
 
     def detector(self) -> Detector:
         """Return a voice detector for one stream."""
-        return Silero(self._model)
+        return Foreground(Silero(self._model))
 
     def close(self) -> None:
         """End the process."""
@@ -74,6 +75,11 @@ class Speech:
 def speech_if_installed() -> Speech:
     """Return the voice and the ears of a server, as far as what they need is installed."""
     return Speech(voice=voice_if_installed(), hearing=hearing_if_installed())
+
+
+def speech_with(ears: str) -> Speech:
+    """Return the voice, if it is installed, and the ears that somebody asked for. Raises as `Hearing` does."""
+    return Speech(voice=voice_if_installed(), hearing=Hearing(ears))
 
 
 class Early:

@@ -10,13 +10,13 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.explain import even
+from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.interaction import ASKING_AGAIN, CANCELLED, FAILED, LISTENING, NOT_UNDERSTOOD, OBJECTED
 from fetch_pomdp.core.language.names import words_besides_name
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.core.senses import texts
 from fetch_pomdp.errors import EventError, InputError, StoreError
 from fetch_pomdp.files.decisions import decision_to_json, phrase_to_json
 from fetch_pomdp.files.events import action_to_json, event_to_json

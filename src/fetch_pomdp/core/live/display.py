@@ -8,12 +8,13 @@ from threading import RLock
 
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.hearing import texts, understood
 from fetch_pomdp.core.interaction import following
 from fetch_pomdp.core.live.inbox import Inbox
 from fetch_pomdp.core.live.updates import BeliefChanged, Did, Heard, Update
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Word
-from fetch_pomdp.core.senses import median_ray, texts
+from fetch_pomdp.core.senses import median_ray
 from fetch_pomdp.errors import InputError
 
 logger = logging.getLogger(__name__)
@@ -101,7 +102,7 @@ class Display:
         pending = self._inbox.pending()
         words = self._taken + pending.words + (pending.partial or ())
         ray = median_ray(pending.frames, self._agent.problem)
-        observation = Observation(self._agent.answers.read(texts(words), self._after).words, ray)
+        observation = understood(words, self._agent.answers, self._after, ray)
         if observation == self._shown:
             return
         self._shown = observation

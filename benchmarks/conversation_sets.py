@@ -1,0 +1,169 @@
+"""What the people of `conversations.py` want and say: tables, sentences, voices; a half to tune on, and one held out.
+
+The halves share no table, no sentence but "yes" and "no", no voice and no speed. The held-out half was written before
+the ears were tuned and is measured last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from fetch_pomdp.core.live.person import live_scene, live_scene_from
+from fetch_pomdp.core.scene import Scene
+from voices import UNHEARD, VOICES
+
+KITCHEN = Path(__file__).parent.parent / "examples" / "kitchen.toml"
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A scene, and what each item is called: so that it is the only one, and so that it need not be."""
+
+    scene: Scene
+    exact: tuple[str, ...]
+    loose: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Sayings:
+    """Sentences; {exact} and {loose} stand for what the item is called."""
+
+    exact: tuple[str, ...]
+    loose: tuple[str, ...]
+    hesitant: tuple[str, ...]
+    yes: tuple[str, ...]
+    no: tuple[str, ...]
+    corrections: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Half:
+    """All that the conversations of a half are made of."""
+
+    tables: tuple[Table, ...]
+    sayings: Sayings
+    voices: tuple[str, ...]
+    talk: tuple[str, ...]  # of the others in the room
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class Conversation:
+    """A person who wants an item. How they answer does not depend on what the robot asks, but for its truth."""
+
+    table: Table
+    target: int
+    voice: str
+    request: str
+    again: str  # said when the robot says that it listens
+    yes: str
+    no: str
+    begins: float  # s
+    thinks: float  # s until an answer
+    seed: int
+
+
+def _table(*items: str) -> Table:
+    """Make a table of lines "id: words; exact; loose"."""
+    parts = [[part.strip() for part in line.replace(":", ";", 1).split(";")] for line in items]
+    data = [
+        {"id": name, "position": [0.25 * (index - (len(items) - 1) / 2), 1.2, 0.75], "vocabulary": words.split()}
+        for index, (name, words, _, _) in enumerate(parts)
+    ]
+    scene = live_scene_from({"head": [0.0, 0.0, 1.6], "items": data})
+    return Table(scene, tuple(part[2] for part in parts), tuple(part[3] for part in parts))
+
+
+def _tuning() -> Half:
+    kinds = ("bowl", "bowl", "marker", "marker", "spoon", "spoon")
+    colours = {"bowl": "black bowl", "marker": "green marker", "spoon": "silver spoon"}
+    tables = (
+        Table(live_scene("ambiguous"), tuple(colours[kind] for kind in kinds), kinds),
+        Table(live_scene(KITCHEN), ("red mug", "blue cup", "whisk"), ("mug", "mug", "whisk")),
+        _table(
+            "red-cup: cup red plastic; red cup; cup", "white-cup: cup white; white cup; cup",
+            "scissors: scissors metal sharp; scissors; scissors", "notebook: notebook book paper; notebook; book",
+            "yellow-box: box yellow; yellow box; box",
+        ),
+    )  # fmt: skip
+    sayings = Sayings(
+        exact=("hand me the {exact}", "give me the {exact} please", "i want the {exact}", "the {exact}"),
+        loose=("hand me the {loose}", "can you give me a {loose}", "pass me that {loose} please", "the {loose}"),
+        hesitant=("um hand me the {exact}", "uh could i have the {exact}", "well i need the uh {exact}"),
+        yes=("yes", "yeah", "yes that one", "yep", "that's right", "sure"),
+        no=("no", "nope", "not that one", "no the other one", "no not that one", "nah"),
+        corrections=("no the {exact}", "no i want the {exact}"),
+    )
+    talk = (
+        "what is the weather today", "the meeting starts at nine", "my brother lives in boston",
+        "we should take the early train", "did you see the match last night", "it was raining all week",
+        "i will call her tomorrow afternoon", "they moved to a bigger house",
+    )  # fmt: skip
+    return Half(tables, sayings, VOICES, talk, seed=1)
+
+
+def _held_out() -> Half:
+    tables = (
+        _table(
+            "hammer: hammer tool heavy; hammer; hammer", "small-wrench: wrench tool small; small wrench; wrench",
+            "large-wrench: wrench tool large; large wrench; wrench", "tape: tape orange; orange tape; tape",
+        ),
+        _table(
+            "green-apple: apple green fruit; green apple; apple", "red-apple: apple red fruit; red apple; apple",
+            "banana: banana yellow fruit; banana; banana", "milk: milk carton white; milk carton; milk",
+            "fork: fork silver; fork; fork", "knife: knife silver; knife; knife",
+        ),
+        _table(
+            "blue-ball: ball blue; blue ball; ball", "pink-ball: ball pink; pink ball; ball",
+            "bear: bear teddy brown; teddy bear; bear", "puzzle: puzzle box wooden; wooden puzzle; puzzle",
+            "left-candle: candle; candle; candle", "right-candle: candle; candle; candle",
+        ),
+    )  # fmt: skip
+    sayings = Sayings(
+        exact=("bring me the {exact}", "could you pass me the {exact}", "i would like the {exact} please",
+               "please give me the {exact}"),
+        loose=("bring me the {loose}", "i need that {loose}", "could you hand me a {loose}", "may i have the {loose}"),
+        hesitant=("um can i get the {exact}", "er the {exact} please", "could you uh pass me the {exact}"),
+        yes=("yes", "yes please", "yup", "yes it is", "that's the one", "correct"),
+        no=("no", "no it's not", "no sorry", "the other one", "not this one", "no thanks"),
+        corrections=("no the {exact} please", "no i meant the {exact}"),
+    )  # fmt: skip
+    talk = (
+        "have you read the new book about rome", "the kids are at school until three",
+        "she said the bus was late again", "let us meet in front of the station", "my phone is almost empty",
+        "that restaurant was far too loud", "i have to finish this report by friday", "he is learning the piano now",
+    )  # fmt: skip
+    return Half(tables, sayings, UNHEARD, talk, seed=2)
+
+
+HALVES: Mapping[str, Half] = {"tuning": _tuning(), "held-out": _held_out()}
+
+
+def conversations(half: Half, count: int) -> list[Conversation]:
+    """Return conversations, the same for the same half and count: three of ten exact, four loose, three hesitant."""
+    rng, made = np.random.default_rng(half.seed), []
+    for index in range(count):
+        table = half.tables[index % len(half.tables)]
+        target = int(rng.integers(len(table.scene.items)))
+        names = {"exact": table.exact[target], "loose": table.loose[target]}
+
+        def say(texts: tuple[str, ...], names: Mapping[str, str] = names) -> str:
+            return texts[rng.integers(len(texts))].format(**names)
+
+        kind = index % 10
+        sayings = half.sayings
+        corrects = rng.random() < 0.3 and table.exact.count(names["exact"]) == 1
+        made.append(
+            Conversation(
+                table, target, half.voices[index // len(half.tables) % len(half.voices)],
+                request=say(sayings.exact if kind < 3 else sayings.loose if kind < 7 else sayings.hesitant),
+                again=say(sayings.exact), yes=say(sayings.yes),
+                no=say(sayings.corrections if corrects else sayings.no),
+                begins=float(rng.uniform(0.5, 1.5)), thinks=float(rng.uniform(0.1, 0.7)), seed=index,
+            )
+        )  # fmt: skip
+    return made
