@@ -58,10 +58,13 @@ class Scene:
     model: Model = field(default_factory=Model)
     rewards: Rewards = field(default_factory=Rewards)
     answers: Answers = field(default_factory=Answers)  # what is understood as an answer here, beside what is everywhere
+    robot: Point3 | None = None  # m, where the robot looks from; None: from across the table
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "items", _items(self.items))
         object.__setattr__(self, "head", checks.point(self.head, "head", SceneError))
+        if self.robot is not None:
+            object.__setattr__(self, "robot", checks.point(self.robot, "robot", SceneError))
         for name, kind in (("model", Model), ("rewards", Rewards)):
             if not isinstance(getattr(self, name), kind):
                 found = f"found {checks.shown(getattr(self, name))}, expected {kind.__name__}(...)"
@@ -115,7 +118,7 @@ class Scene:
 
         model: what holds where the fields do not say; the paper's unless given.
         """
-        checks.known(data, ("head", "items", "model", "rewards", "answers"), "field", SceneError)
+        checks.known(data, ("head", "items", "model", "rewards", "answers", "robot"), "field", SceneError)
         checks.required(data, ("head", "items"), SceneError)
         if not isinstance(data["items"], list | tuple):
             found = checks.shown(data["items"])
@@ -130,7 +133,8 @@ class Scene:
             answers = Answers.from_mapping(checks.mapping(data.get("answers", {}), "", SceneError))
         except InputError as error:
             raise error.within(section) from None
-        return cls(items=items, head=data["head"], model=model, rewards=rewards, answers=answers)
+        robot = data.get("robot")
+        return cls(items=items, head=data["head"], model=model, rewards=rewards, answers=answers, robot=robot)
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the head, the items and the answers that it adds as plain data, in the form of a scene file."""
@@ -138,7 +142,8 @@ class Scene:
             {"id": item.id, "position": list(item.position), "vocabulary": list(item.vocabulary)} for item in self.items
         ]
         answers = self.answers.to_mapping()
-        return {"head": list(self.head), "items": items} | ({"answers": answers} if answers else {})
+        robot = {} if self.robot is None else {"robot": list(self.robot)}
+        return {"head": list(self.head), "items": items} | robot | ({"answers": answers} if answers else {})
 
 
 def _items(given: object) -> tuple[Item, ...]:

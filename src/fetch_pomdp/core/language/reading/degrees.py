@@ -1,0 +1,84 @@
+"""Soft degrees: from places to how far "closest", "second from the left", "next to" or "between" hold, from 0 to 1.
+
+Pure functions of arrays whose last axis is the items. Weights may be numbers or carry an axis of variants in front.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from fetch_pomdp.core.compiled import Vector
+
+Array = Any  # of floats, with any axes in front
+
+
+def sigmoid(x: Array) -> Array:
+    """Return the logistic function."""
+    return 0.5 * (1.0 + np.tanh(0.5 * x))
+
+
+def before(values: Array, candidates: Array, blur: Array) -> Array:
+    """Return how many candidates come before each item, softly (..., n): those with smaller values.
+
+    candidates: (..., n), how far each item counts as one.
+    """
+    smaller = sigmoid((values[..., :, None] - values[..., None, :]) / np.expand_dims(np.asarray(blur), -1))
+    return (smaller * candidates[..., None, :]).sum(axis=-1) - 0.5 * candidates
+
+
+def ranked(values: Array, candidates: Array, rank: int, blur: Array, fall: Array) -> Array:
+    """Return how far each item is number `rank` of the candidates in the order of values (..., n); -1 is the last."""
+    if rank < 0:
+        values, rank = -values, -rank
+    return np.exp(-fall * np.abs(before(values, candidates, blur) - (rank - 1)))
+
+
+def share(candidates: Array) -> Array:
+    """Return degrees scaled so that the best item's is 1."""
+    return candidates / np.maximum(candidates.max(axis=-1, keepdims=True), 1e-30)
+
+
+def related(landmarks: Array, holds: Array) -> Array:
+    """Return how far a relation holds of each item and some landmark (..., n): it does with one or another.
+
+    landmarks: (..., n), how far each item is one. holds: (..., n, n), of an item and a landmark.
+    """
+    return 1.0 - np.prod(1.0 - np.minimum(holds * landmarks[..., None, :], 0.999), axis=-1)
+
+
+def middle(points: Vector, members: Array) -> Array:
+    """Return the distance of each item to the middle of the members (..., n), in the unit of points, (n, 2)."""
+    total = np.maximum(members.sum(axis=-1, keepdims=True), 1e-12)
+    centre = (members[..., None] * points).sum(axis=-2) / total
+    return np.sqrt(((points - centre[..., None, :]) ** 2).sum(axis=-1))
+
+
+def toward(offsets: Array, distances: Array, axis: Array, turn: Array, reach: Array) -> Array:
+    """Return how far each item is in a direction from each landmark (..., n, n), from 0 to 1.
+
+    offsets: (n, n, 2), from landmark to item. distances: (n, n). axis: (..., 2), unit direction.
+    """
+    along = (offsets * axis[..., None, None, :]).sum(axis=-1) / np.maximum(distances, 1e-9)
+    turn, reach = np.expand_dims(np.asarray(turn), -1), np.expand_dims(np.asarray(reach), -1)
+    degree = np.exp(turn * (along - 1.0) - np.maximum(distances - 1.0, 0.0) / (2.0 * reach))
+    return degree * (1.0 - np.eye(distances.shape[0]))
+
+
+def beside(distances: Array, reach: Array) -> Array:
+    """Return how far each item is next to each landmark (..., n, n), from 0 to 1. distances: (n, n)."""
+    reach = np.expand_dims(np.asarray(reach), -1)
+    return np.exp(-np.maximum(distances - 0.8, 0.0) / reach) * (1.0 - np.eye(distances.shape[0]))
+
+
+def between(distances: Array, wide: Array, reach: Array, even: Array) -> Array:
+    """Return how far each item is between each two others (..., n, n, n), from 0 to 1. distances: (n, n)."""
+    wide, reach, even = (np.expand_dims(np.asarray(each), (-1, -2)) for each in (wide, reach, even))
+    one, other, both = distances[:, :, None], distances[:, None, :], distances[None, :, :]
+    detour = one + other - both
+    uneven = np.abs(one - other) / np.maximum(both, 1e-9)
+    degree = np.exp(-detour / wide - np.maximum(both - 2.0, 0.0) / (4.0 * reach) - uneven * even)
+    size = distances.shape[0]
+    apart = 1.0 - np.eye(size)
+    return degree * apart[:, :, None] * apart[:, None, :] * apart[None, :, :]

@@ -1,0 +1,386 @@
+"""From a meaning to degrees: how far each item of a table is what a description says, in every view.
+
+All degrees have the axes (variants, views, items), of length 1 where nothing differs. A description's restricting parts
+(words, sides, relations) are multiplied; what ranks (closest, second from the left, in the middle) then ranks the items
+by how far these hold. Landmarks are descriptions with degrees of their own: what is uncertain about them stays so.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from fetch_pomdp.core.language.reading import degrees
+from fetch_pomdp.core.language.reading.degrees import Array
+from fetch_pomdp.core.language.reading.form import (
+    Alone,
+    Anaphor,
+    Between,
+    Cluster,
+    Count,
+    Crowded,
+    Description,
+    Form,
+    Middle,
+    Not,
+    Person,
+    Relation,
+    Seen,
+    Select,
+    Side,
+    Superlative,
+    Union,
+    Within,
+)
+from fetch_pomdp.core.language.reading.grammar import Grammar
+from fetch_pomdp.core.language.reading.groups import Groups, groups
+from fetch_pomdp.core.language.reading.table import LISTENER, SPEAKER, VIEWS, Table, person_in
+from fetch_pomdp.core.language.reading.weights import Weights
+
+DEEPEST = 6  # landmarks of landmarks
+LIKELIEST = 4  # groups that are looked at
+SWAPPED, WIDE, DEEP = (np.array(column) for column in zip(*VIEWS, strict=True))
+LATERAL = {"left": -1.0, "right": 1.0, "west": -1.0, "east": 1.0}
+UPRIGHT = {"top": 1.0, "bottom": -1.0}
+UPON = {"front": -1.0, "back": 1.0}
+WAYS = {
+    "left of": ("left",), "right of": ("right",), "above": ("top",), "below": ("bottom",), "behind": ("back",),
+    "in front of": ("front",),
+}  # fmt: skip
+REACHES = {"next to": "near_reach", "touching": "touch_reach", "near": "about_reach", "among": "about_reach"}
+RANKING = (Superlative, Middle, Alone, Crowded)
+
+
+class Denotation:
+    """The degrees of meanings on one table under some weights; what was computed once is kept."""
+
+    def __init__(self, table: Table, grammar: Grammar, weights: Weights) -> None:
+        self.table, self.grammar, self.w = table, grammar, weights.values
+        self._kept: dict[Any, Array] = {}
+        self._grouped: dict[Description, tuple[Array, Array]] = {}
+        self._people: dict[Person, Array] = {
+            whom: np.array([person_in(view, whom) for view in VIEWS]) for whom in Person
+        }
+
+    def of(self, said: Description, depth: int = 0) -> Array:
+        """Return how far each item is what is said."""
+        if said not in self._kept:
+            self._kept[said] = self._of(said, depth)
+        return self._kept[said]
+
+    def _of(self, said: Description, depth: int) -> Array:
+        if depth > DEEPEST:
+            return np.ones((1, 1, self.table.size))
+        if said.plural:
+            members, chances = self.groups(said, depth)
+            return (chances[..., None] * members).sum(axis=-2)
+        holds: Array = np.ones((1, 1, self.table.size))
+        ranking: list[Form] = []
+        inside: list[Description] = []
+        for part in said.parts:
+            if isinstance(part, Within) and isinstance(part.group, Description) and part.group.plural:
+                inside.append(part.group)
+            elif ranks(part):
+                ranking.append(part)
+            else:
+                holds = holds * self._part(part, depth)
+        if inside:
+            return self._within(inside, holds, ranking, depth)
+        return self._ranked(holds, ranking, depth)
+
+    def _within(self, inside: list[Description], holds: Array, ranking: list[Form], depth: int) -> Array:
+        """Return the degrees of one of a group: what ranks does so among its members."""
+        members, chances = self.groups(inside[0], depth + 1)
+        for other in inside[1:]:
+            holds = holds * np.maximum(self.of(other, depth + 1), self.w.group_outside)
+        total: Array = np.zeros((1, 1, self.table.size))
+        for index in range(members.shape[-2]):
+            member = np.maximum(members[index], 0.0)
+            local = self._ranked(holds * (member + 1e-9), ranking, depth, group=True)
+            total = total + chances[..., index : index + 1] * local
+        return total + self.w.group_outside * self._ranked(holds, ranking, depth) * 0.1
+
+    def _ranked(self, holds: Array, ranking: list[Form], depth: int, *, group: bool = False) -> Array:
+        candidates = degrees.share(holds)
+        for part in ranking:
+            holds = holds * self._rank(part, candidates, depth, group)
+        return holds
+
+    def groups(self, said: Description, depth: int) -> tuple[Array, Array]:
+        """Return the likeliest groups that a plural description may mean: (g, n) members and (..., g) chances."""
+        found = self._grouped.get(said)
+        if found is None:
+            found = self._grouped[said] = self._groups(said, depth)
+        return found
+
+    def _groups(self, said: Description, depth: int) -> tuple[Array, Array]:
+        hard = np.ones(self.table.size)
+        number = None
+        holds: Array = np.ones((1, 1, self.table.size))
+        ranking: list[Form] = []
+        for part in said.parts:
+            if isinstance(part, Select):
+                hard = hard * self.table.called(part.word, self.grammar)
+            elif isinstance(part, Count):
+                number = part.number
+            elif isinstance(part, Cluster):
+                continue
+            elif isinstance(part, Within) and isinstance(part.group, Description):
+                holds = holds * np.maximum(self.of(part.group, depth + 1), self.w.group_outside)
+            elif ranks(part):
+                ranking.append(part)
+            else:
+                holds = holds * self._part(part, depth)
+        candidates = hard > 0.3 * max(float(hard.max()), 1e-9)
+        found = self._sets(candidates, number)
+        holds = holds * np.where(candidates, 1.0, 1e-6)
+        for part in ranking:
+            holds = holds * self._rank(part, degrees.share(holds), depth, False)
+        return self._chances(found, holds)
+
+    def _sets(self, candidates: Array, number: int | None) -> Groups:
+        key = ("sets", candidates.tobytes(), number)
+        found = self.table.kept.get(key)
+        if found is None:
+            found = self.table.kept[key] = groups(candidates, number, self.table.distances)
+        return found
+
+    def _chances(self, found: Groups, holds: Array) -> tuple[Array, Array]:
+        w, sizes = self.w, np.maximum(found.members.sum(axis=1), 1.0)
+        fit = np.log(np.maximum(holds, 1e-12)) @ found.members.T / sizes
+        log = fit - w.group_near * found.near - w.group_spread * found.spread + w.group_apart * found.apart
+        best = np.argsort(-log.max(axis=(0, 1)), kind="stable")[:LIKELIEST]
+        log = log[..., best]
+        chances = np.exp(log - np.logaddexp.reduce(log, axis=-1, keepdims=True))
+        quality = np.exp(np.minimum(fit[..., best].max(axis=-1, keepdims=True), 0.0))
+        return found.members[best], chances * quality
+
+    def _part(self, part: Form, depth: int) -> Array:
+        if part not in self._kept:
+            self._kept[part] = self._restricting(part, depth)
+        return self._kept[part]
+
+    def _restricting(self, part: Form, depth: int) -> Array:
+        w = self.w
+        if isinstance(part, Select):
+            called = self.table.called(part.word, self.grammar)
+            return called if not called.any() else np.maximum(called, w.word_missing)
+        if isinstance(part, Side):
+            return self._side(part)
+        if isinstance(part, Relation | Between):
+            held = self._relation(part, depth) if isinstance(part, Relation) else self._between(part, depth)
+            return w.missing + (1.0 - w.missing) * held
+        return self._composed(part, depth)
+
+    def _composed(self, part: Form, depth: int) -> Array:
+        result: Array = np.ones((1, 1, self.table.size))
+        if isinstance(part, Not):
+            result = self._negated(part, depth)
+        elif isinstance(part, Seen):
+            person = self._people[part.viewer]
+            result = np.exp(-self.w.seen_view * ~((person == WIDE) & (person == DEEP))[:, None])
+        elif isinstance(part, Within):
+            result = np.maximum(degrees.share(self._landmark(part.group, depth)), self.w.group_outside)
+        elif isinstance(part, Union):
+            result = np.maximum(self._landmark(part.first, depth), self._landmark(part.second, depth))
+        elif isinstance(part, Description):
+            result = self.of(part, depth + 1)
+        return result
+
+    def _negated(self, part: Not, depth: int) -> Array:
+        inner = part.form if isinstance(part.form, Description) else Description((part.form,))
+        held = degrees.share(self.of(inner, depth + 1))
+        return np.maximum(1.0 - held, self.w.not_floor)
+
+    def _landmark(self, landmark: Person | Description | Anaphor, depth: int) -> Array:
+        if isinstance(landmark, Description):
+            return degrees.share(self.of(landmark, depth + 1))
+        return np.ones((1, 1, self.table.size))
+
+    def _along(self, side: str, viewer: Person | None) -> Array:
+        """Return how far to a side each item is, (views, n) in spreads: the side's own direction is positive."""
+        table = self.table
+        pick = None if viewer is None else self._people[viewer]
+        if side in LATERAL:
+            return LATERAL[side] * table.right[WIDE if pick is None else pick]
+        if side in UPRIGHT:
+            return UPRIGHT[side] * table.away[self._map if pick is None else pick]
+        return UPON[side] * table.away[DEEP if pick is None else pick]
+
+    @property
+    def _map(self) -> Array:
+        return WIDE
+
+    def _side(self, side: Side) -> Array:
+        """Return how far each item is on a side, of all items: softly beyond a border, and more the farther."""
+        w, result = self.w, np.ones((1, 1, 1))
+        for name in side.sides:
+            along = self._along(name, side.viewer)
+            result = result * degrees.sigmoid((along - w.side_border) / w.side_blur)
+            result = result * np.exp(-w.side_fall * degrees.before(-along, np.ones_like(along), w.rank_blur) / 3.0)
+        return result
+
+    def _rank(self, part: Form, candidates: Array, depth: int, group: bool) -> Array:
+        w = self.w
+        result: Array = np.ones((1, 1, self.table.size))
+        if isinstance(part, Side):
+            for name in part.sides:
+                along = self._along(name, part.viewer)
+                result = result * degrees.ranked(-along, candidates, 1, w.rank_blur, w.extreme_fall)
+        elif isinstance(part, Superlative):
+            result = self._superlative(part, candidates, depth)
+        elif isinstance(part, Middle):
+            result = self._middle(part, candidates, depth, group)
+        elif isinstance(part, Alone):
+            result = self._lonely(candidates, -1.0, w.alone_fall)
+        elif isinstance(part, Crowded):
+            result = self._lonely(candidates, 1.0, w.crowd_fall)
+        elif isinstance(part, Relation):
+            result = self._before_person(part, candidates)
+        return result
+
+    def _lonely(self, candidates: Array, sign: float, fall: Array) -> Array:
+        apart = np.sort(self.table.distances, axis=1)[:, 1 : 2 if sign < 0 else 5].mean(axis=1)
+        return degrees.ranked(sign * apart, candidates, 1, self.w.rank_blur, fall)
+
+    def _superlative(self, part: Superlative, candidates: Array, depth: int) -> Array:
+        w = self.w
+        fall = w.rank_fall if part.rank == 1 else w.count_fall
+        if part.by is None:
+            chance = degrees.sigmoid(w.near_you)
+            values = self._nearness(LISTENER), self._nearness(SPEAKER)
+            sign = -1.0 if part.far else 1.0
+            one, other = (degrees.ranked(sign * value, candidates, part.rank, w.rank_blur, fall) for value in values)
+            swapped = SWAPPED[:, None] > 0
+            chance = np.where(swapped, 1.0 - chance, chance)
+            return chance * one + (1.0 - chance) * other
+        if isinstance(part.by, Side):
+            values_ = self._sum_along(part.by)
+            return degrees.ranked(values_ if part.far else -values_, candidates, part.rank, w.rank_blur, fall)
+        if isinstance(part.by, Person):
+            near = np.stack([self._nearness(SPEAKER), self._nearness(LISTENER)], axis=-3)
+            value = np.take(near, self._people[part.by], axis=-3)[..., 0, :]
+        else:
+            value = self._distance(part.by, depth)
+        return degrees.ranked(-value if part.far else value, candidates, part.rank, w.rank_blur, fall)
+
+    def _sum_along(self, side: Side) -> Array:
+        return sum((self._along(name, side.viewer) for name in side.sides), start=np.zeros(self.table.size))
+
+    def _nearness(self, person: int) -> Array:
+        """Return the distance from a person, (variants, 1, n): between how deep and how far, in spreads."""
+        share = self.w.depth / (1.0 + self.w.depth)
+        return share * self.table.away[person] + (1.0 - share) * self.table.remote[person] + np.zeros((1, 1, 1))
+
+    def _distance(self, landmark: Description, depth: int) -> Array:
+        """Return the distance from landmarks that are uncertain, in spreads."""
+        where = self._landmark(landmark, depth)
+        where = where / np.maximum(where.sum(axis=-1, keepdims=True), 1e-12)
+        close = np.exp(-self.table.distances / 0.5) * (1.0 - np.eye(self.table.size))
+        held = (close * where[..., None, :]).sum(axis=-1)
+        return -0.5 * np.log(np.maximum(held, 1e-12)) * self.table.spacing / self.table.spread
+
+    def _middle(self, part: Middle, candidates: Array, depth: int, group: bool) -> Array:
+        w, table = self.w, self.table
+        points = table.points / table.spread
+        if part.of is not None:
+            return self._middle_of(part.of, candidates, depth)
+        own = degrees.ranked(degrees.middle(points, candidates), candidates, 1, w.rank_blur, w.group_middle_fall)
+        if group:
+            return own
+        everything = degrees.middle(points, np.ones(table.size))
+        all_ = degrees.ranked(everything, candidates, 1, w.rank_blur, w.middle_fall)
+        share = w.middle_own / (1.0 + w.middle_own)
+        return share * own + (1.0 - share) * all_
+
+    def _middle_of(self, of: Description | Anaphor, candidates: Array, depth: int) -> Array:
+        w, points = self.w, self.table.points / self.table.spread
+        if isinstance(of, Description) and of.plural:
+            members, chances = self.groups(of, depth + 1)
+            total: Array = np.zeros((1, 1, 1))
+            for index in range(members.shape[-2]):
+                inside = candidates * (members[index] + w.group_outside)
+                value = degrees.middle(points, members[index])
+                rank = degrees.ranked(value, degrees.share(inside), 1, w.rank_blur, w.group_middle_fall)
+                total = total + chances[..., index : index + 1] * rank * np.maximum(members[index], w.group_outside)
+            return total
+        value = degrees.middle(points, self._landmark(of, depth))
+        return degrees.ranked(value, candidates, 1, w.rank_blur, w.middle_fall)
+
+    def _before_person(self, part: Relation, candidates: Array) -> Array:
+        """Return how far each item is in front of a person, next to, or on a side of them."""
+        w = self.w
+        who = self._people[part.landmark] if isinstance(part.landmark, Person) else WIDE
+        if part.name in ("left of", "right of"):
+            along = LATERAL[part.name.split()[0]] * self.table.right[who]
+            return degrees.ranked(-along, candidates, 1, w.rank_blur, w.extreme_fall)
+        near = np.stack([self._nearness(SPEAKER), self._nearness(LISTENER)], axis=-3)
+        value = np.take(near, who, axis=-3)[..., 0, :]
+        if part.name == "away from":
+            value = -value
+        elif part.name == "in front of":
+            value = value + w.aside * np.abs(self.table.right[who])
+        return degrees.ranked(value, candidates, 1, w.rank_blur, w.front_fall)
+
+    def _relation(self, part: Relation, depth: int) -> Array:
+        both = (
+            part.landmark.parts[0] if isinstance(part.landmark, Description) and len(part.landmark.parts) == 1 else None
+        )
+        if isinstance(both, Union):  # "next to the red one and the blue one" holds of both
+            one, other = (dataclasses.replace(part, landmark=each) for each in (both.first, both.second))
+            return self._relation(one, depth) * self._relation(other, depth)
+        where = self._landmark(part.landmark, depth)
+        if part.name == "away from":
+            return 1.0 - degrees.related(where, self._holds("near", direct=False))
+        return degrees.related(where, self._holds(part.name, direct=part.direct))
+
+    def _holds(self, name: str, *, direct: bool) -> Array:
+        key = ("relation", name, direct)
+        if key not in self._kept:
+            self._kept[key] = self._relations(name, direct)
+        return self._kept[key]
+
+    def _relations(self, name: str, direct: bool) -> Array:
+        """Return how far a relation holds of each item and each landmark, (variants, views, n, n)."""
+        w, table = self.w, self.table
+        if name in REACHES:
+            return degrees.beside(table.distances, getattr(w, REACHES[name]) * (w.direct_reach if direct else 1.0))
+        ways = WAYS.get(name) or tuple(each for each in name.split() if each in LATERAL | UPRIGHT | UPON)
+        axis = sum((self._axis(way) for way in ways), start=np.zeros((len(VIEWS), 2)))
+        axis = axis / np.maximum(np.sqrt((axis**2).sum(axis=-1, keepdims=True)), 1e-9)
+        offsets = (table.points[:, None] - table.points[None]) / table.spacing
+        turn = w.way_turn * (w.direct_turn if direct else 1.0)
+        reach = w.way_reach * (w.direct_reach if direct else 1.0)
+        return degrees.toward(offsets, table.distances, axis, turn, reach)
+
+    def _axis(self, way: str) -> Array:
+        axes = self.table.axes
+        if way in LATERAL:
+            return LATERAL[way] * axes[WIDE, 0]
+        if way in UPRIGHT:
+            return UPRIGHT[way] * axes[self._map, 1]
+        return UPON[way] * axes[DEEP, 1]
+
+    def _between(self, part: Between, depth: int) -> Array:
+        holds = self._kept.get("between")
+        w = self.w
+        if holds is None:
+            holds = degrees.between(self.table.distances, w.between_wide, w.between_reach, w.between_even)
+            self._kept["between"] = holds
+        first, second = part.first, part.second
+        if second is None and isinstance(first, Description) and len(first.parts) == 1:
+            only = first.parts[0]
+            if isinstance(only, Union):
+                first, second = only.first, only.second
+        one = self._landmark(first, depth)
+        other = one if second is None else self._landmark(second, depth)
+        return (holds * one[..., None, :, None] * other[..., None, None, :]).max(axis=(-1, -2))
+
+
+def ranks(part: Form) -> bool:
+    """Return whether a part ranks items among others, instead of holding of each by itself."""
+    if isinstance(part, Side):
+        return part.extreme
+    return isinstance(part, RANKING) or (isinstance(part, Relation) and isinstance(part.landmark, Person))
