@@ -9,30 +9,38 @@ from typing import Any
 
 import numpy as np
 
-from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.compiled import Integers, Vector
 
 Array = Any  # of floats, with any axes in front
 
 
 def sigmoid(x: Array) -> Array:
     """Return the logistic function."""
-    return 0.5 * (1.0 + np.tanh(0.5 * x))
+    half = np.tanh(0.5 * x)
+    return 0.5 * half + 0.5
 
 
-def before(values: Array, candidates: Array, blur: Array) -> Array:
-    """Return how many candidates come before each item, softly (..., n): those with smaller values.
+def precedes(values: Array, blur: Array) -> Array:
+    """Return how far each other item's value is the smaller one, softly (..., n, n): of an item, and another.
 
-    candidates: (..., n), how far each item counts as one.
+    Its transpose is that of the values' negatives.
     """
-    smaller = sigmoid((values[..., :, None] - values[..., None, :]) / np.expand_dims(np.asarray(blur), -1))
-    return (smaller * candidates[..., None, :]).sum(axis=-1) - 0.5 * candidates
+    return sigmoid((values[..., :, None] - values[..., None, :]) / np.expand_dims(np.asarray(blur), -1))
 
 
-def ranked(values: Array, candidates: Array, rank: int, blur: Array, fall: Array) -> Array:
-    """Return how far each item is number `rank` of the candidates in the order of values (..., n); -1 is the last."""
+def before(order: Array, candidates: Array) -> Array:
+    """Return how many candidates come before each item, softly (..., n).
+
+    order: (..., n, n), as `precedes` gives it. candidates: (..., n), how far each item counts as one.
+    """
+    return np.matmul(order, candidates[..., None])[..., 0] - 0.5 * candidates
+
+
+def ranked(order: Array, candidates: Array, rank: int, fall: Array) -> Array:
+    """Return how far each item is number `rank` of the candidates in an order (..., n); -1 is the last."""
     if rank < 0:
-        values, rank = -values, -rank
-    return np.exp(-fall * np.abs(before(values, candidates, blur) - (rank - 1)))
+        order, rank = np.swapaxes(order, -1, -2), -rank
+    return np.exp(-fall * np.abs(before(order, candidates) - (rank - 1)))
 
 
 def share(candidates: Array) -> Array:
@@ -72,13 +80,15 @@ def beside(distances: Array, reach: Array) -> Array:
     return np.exp(-np.maximum(distances - 0.8, 0.0) / reach) * (1.0 - np.eye(distances.shape[0]))
 
 
-def between(distances: Array, wide: Array, reach: Array, even: Array) -> Array:
-    """Return how far each item is between each two others (..., n, n, n), from 0 to 1. distances: (n, n)."""
-    wide, reach, even = (np.expand_dims(np.asarray(each), (-1, -2)) for each in (wide, reach, even))
-    one, other, both = distances[:, :, None], distances[:, None, :], distances[None, :, :]
-    detour = one + other - both
-    uneven = np.abs(one - other) / np.maximum(both, 1e-9)
+def between(distances: Array, some: Integers, others: Integers, shape: tuple[Array, Array, Array]) -> Array:
+    """Return how far each item is between each two landmarks (..., n, some, others), from 0 to 1.
+
+    distances: (n, n). some, others: indices of the landmarks. shape: the detour that still is between, how far apart
+    the two may be, and how much unevenness counts.
+    """
+    wide, reach, even = (np.expand_dims(np.asarray(each), (-1, -2)) for each in shape)
+    one, other = distances[:, some, None], distances[:, None, others]
+    both = distances[np.ix_(some, others)]
+    detour, uneven = one + other - both, np.abs(one - other) / np.maximum(both, 1e-9)
     degree = np.exp(-detour / wide - np.maximum(both - 2.0, 0.0) / (4.0 * reach) - uneven * even)
-    size = distances.shape[0]
-    apart = 1.0 - np.eye(size)
-    return degree * apart[:, :, None] * apart[:, None, :] * apart[None, :, :]
+    return degree * ((one > 0.0) & (other > 0.0) & (both > 0.0))

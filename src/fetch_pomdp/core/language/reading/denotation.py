@@ -8,10 +8,12 @@ by how far these hold. Landmarks are descriptions with degrees of their own: wha
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from fetch_pomdp.core.compiled import Integers
 from fetch_pomdp.core.language.reading import degrees
 from fetch_pomdp.core.language.reading.degrees import Array
 from fetch_pomdp.core.language.reading.form import (
@@ -23,6 +25,7 @@ from fetch_pomdp.core.language.reading.form import (
     Crowded,
     Description,
     Form,
+    Known,
     Middle,
     Not,
     Person,
@@ -39,6 +42,7 @@ from fetch_pomdp.core.language.reading.groups import Groups, groups
 from fetch_pomdp.core.language.reading.table import LISTENER, SPEAKER, VIEWS, Table, person_in
 from fetch_pomdp.core.language.reading.weights import Weights
 
+UNLIKELY = 0.1  # degree, of the best landmark's, below which an item is no end of what is between
 DEEPEST = 6  # landmarks of landmarks
 LIKELIEST = 4  # groups that are looked at
 SWAPPED, WIDE, DEEP = (np.array(column) for column in zip(*VIEWS, strict=True))
@@ -166,7 +170,7 @@ class Denotation:
         w = self.w
         if isinstance(part, Select):
             called = self.table.called(part.word, self.grammar)
-            return called if not called.any() else np.maximum(called, w.word_missing)
+            return np.maximum(called, w.word_missing) if called.any() else np.ones(self.table.size)
         if isinstance(part, Side):
             return self._side(part)
         if isinstance(part, Relation | Between):
@@ -187,6 +191,8 @@ class Denotation:
             result = np.maximum(self._landmark(part.first, depth), self._landmark(part.second, depth))
         elif isinstance(part, Description):
             result = self.of(part, depth + 1)
+        elif isinstance(part, Known):
+            result = np.where(np.arange(self.table.size) == part.index, 1.0, self.w.word_missing)
         return result
 
     def _negated(self, part: Not, depth: int) -> Array:
@@ -219,7 +225,8 @@ class Denotation:
         for name in side.sides:
             along = self._along(name, side.viewer)
             result = result * degrees.sigmoid((along - w.side_border) / w.side_blur)
-            result = result * np.exp(-w.side_fall * degrees.before(-along, np.ones_like(along), w.rank_blur) / 3.0)
+            before = degrees.before(self._order(name, side.viewer), np.ones((1, 1, self.table.size)))
+            result = result * np.exp(-w.side_fall * before / 3.0)
         return result
 
     def _rank(self, part: Form, candidates: Array, depth: int, group: bool) -> Array:
@@ -227,8 +234,8 @@ class Denotation:
         result: Array = np.ones((1, 1, self.table.size))
         if isinstance(part, Side):
             for name in part.sides:
-                along = self._along(name, part.viewer)
-                result = result * degrees.ranked(-along, candidates, 1, w.rank_blur, w.extreme_fall)
+                order = self._order(name, part.viewer)
+                result = result * degrees.ranked(order, candidates, 1, w.extreme_fall)
         elif isinstance(part, Superlative):
             result = self._superlative(part, candidates, depth)
         elif isinstance(part, Middle):
@@ -241,30 +248,49 @@ class Denotation:
             result = self._before_person(part, candidates)
         return result
 
+    def _ordered(self, key: Any, values: Callable[[], Array]) -> Array:
+        """Return the soft order of the items by values, (..., n, n); kept under a key."""
+        found = self._kept.get(("order", key))
+        if found is None:
+            found = self._kept["order", key] = degrees.precedes(values(), self.w.rank_blur)
+        return found
+
+    def _order(self, side: str, viewer: Person | None) -> Array:
+        """Return the order of the items from the farthest on a side."""
+        return self._ordered((side, viewer), lambda: -self._along(side, viewer))
+
+    def _nearest(self, person: int) -> Array:
+        """Return the order of the items from the nearest to a person, 0 or 1."""
+        return self._ordered(person, lambda: self._nearness(person))
+
+    def _nearest_to(self, whom: Person) -> Array:
+        """Return the order of the items from the nearest to who is called so, in each view."""
+        return self._ordered(whom, lambda: self._nearness_to(whom))
+
     def _lonely(self, candidates: Array, sign: float, fall: Array) -> Array:
         apart = np.sort(self.table.distances, axis=1)[:, 1 : 2 if sign < 0 else 5].mean(axis=1)
-        return degrees.ranked(sign * apart, candidates, 1, self.w.rank_blur, fall)
+        return degrees.ranked(self._ordered(("apart", sign), lambda: sign * apart), candidates, 1, fall)
 
     def _superlative(self, part: Superlative, candidates: Array, depth: int) -> Array:
         w = self.w
         fall = w.rank_fall if part.rank == 1 else w.count_fall
+
+        def ranked(order: Array, *, far: bool) -> Array:
+            return degrees.ranked(np.swapaxes(order, -1, -2) if far else order, candidates, part.rank, fall)
+
         if part.by is None:
-            chance = degrees.sigmoid(w.near_you)
-            values = self._nearness(LISTENER), self._nearness(SPEAKER)
-            sign = -1.0 if part.far else 1.0
-            one, other = (degrees.ranked(sign * value, candidates, part.rank, w.rank_blur, fall) for value in values)
-            swapped = SWAPPED[:, None] > 0
-            chance = np.where(swapped, 1.0 - chance, chance)
+            chance = np.where(SWAPPED[:, None] > 0, 1.0 - degrees.sigmoid(w.near_you), degrees.sigmoid(w.near_you))
+            one, other = (ranked(self._nearest(person), far=part.far) for person in (LISTENER, SPEAKER))
             return chance * one + (1.0 - chance) * other
         if isinstance(part.by, Side):
-            values_ = self._sum_along(part.by)
-            return degrees.ranked(values_ if part.far else -values_, candidates, part.rank, w.rank_blur, fall)
-        if isinstance(part.by, Person):
-            near = np.stack([self._nearness(SPEAKER), self._nearness(LISTENER)], axis=-3)
-            value = np.take(near, self._people[part.by], axis=-3)[..., 0, :]
+            side = part.by
+            order = self._ordered(side, lambda: -self._sum_along(side))
+        elif isinstance(part.by, Person):
+            order = self._nearest_to(part.by)
         else:
-            value = self._distance(part.by, depth)
-        return degrees.ranked(-value if part.far else value, candidates, part.rank, w.rank_blur, fall)
+            landmark = part.by
+            order = self._ordered(landmark, lambda: self._distance(landmark, depth))
+        return ranked(order, far=part.far)
 
     def _sum_along(self, side: Side) -> Array:
         return sum((self._along(name, side.viewer) for name in side.sides), start=np.zeros(self.table.size))
@@ -274,12 +300,17 @@ class Denotation:
         share = self.w.depth / (1.0 + self.w.depth)
         return share * self.table.away[person] + (1.0 - share) * self.table.remote[person] + np.zeros((1, 1, 1))
 
+    def _nearness_to(self, whom: Person) -> Array:
+        """Return the distance from who is called so, (variants, views, n), in spreads."""
+        of = np.concatenate([self._nearness(SPEAKER), self._nearness(LISTENER)], axis=-2)
+        return of[..., self._people[whom], :]
+
     def _distance(self, landmark: Description, depth: int) -> Array:
         """Return the distance from landmarks that are uncertain, in spreads."""
         where = self._landmark(landmark, depth)
         where = where / np.maximum(where.sum(axis=-1, keepdims=True), 1e-12)
         close = np.exp(-self.table.distances / 0.5) * (1.0 - np.eye(self.table.size))
-        held = (close * where[..., None, :]).sum(axis=-1)
+        held = np.matmul(where, close)  # the distances are the same both ways
         return -0.5 * np.log(np.maximum(held, 1e-12)) * self.table.spacing / self.table.spread
 
     def _middle(self, part: Middle, candidates: Array, depth: int, group: bool) -> Array:
@@ -287,42 +318,42 @@ class Denotation:
         points = table.points / table.spread
         if part.of is not None:
             return self._middle_of(part.of, candidates, depth)
-        own = degrees.ranked(degrees.middle(points, candidates), candidates, 1, w.rank_blur, w.group_middle_fall)
+        inner = degrees.precedes(degrees.middle(points, candidates), w.rank_blur)
+        own = degrees.ranked(inner, candidates, 1, w.group_middle_fall)
         if group:
             return own
-        everything = degrees.middle(points, np.ones(table.size))
-        all_ = degrees.ranked(everything, candidates, 1, w.rank_blur, w.middle_fall)
+        everything = self._ordered("middle", lambda: degrees.middle(points, np.ones(table.size)))
         share = w.middle_own / (1.0 + w.middle_own)
-        return share * own + (1.0 - share) * all_
+        return share * own + (1.0 - share) * degrees.ranked(everything, candidates, 1, w.middle_fall)
 
     def _middle_of(self, of: Description | Anaphor, candidates: Array, depth: int) -> Array:
         w, points = self.w, self.table.points / self.table.spread
         if isinstance(of, Description) and of.plural:
             members, chances = self.groups(of, depth + 1)
             total: Array = np.zeros((1, 1, 1))
-            for index in range(members.shape[-2]):
-                inside = candidates * (members[index] + w.group_outside)
-                value = degrees.middle(points, members[index])
-                rank = degrees.ranked(value, degrees.share(inside), 1, w.rank_blur, w.group_middle_fall)
-                total = total + chances[..., index : index + 1] * rank * np.maximum(members[index], w.group_outside)
+            for index, member in enumerate(members):
+                inside = np.maximum(member, w.group_outside)
+                order = degrees.precedes(degrees.middle(points, member), w.rank_blur)
+                rank = degrees.ranked(order, degrees.share(candidates * inside), 1, w.group_middle_fall)
+                total = total + chances[..., index : index + 1] * rank * inside
             return total
-        value = degrees.middle(points, self._landmark(of, depth))
-        return degrees.ranked(value, candidates, 1, w.rank_blur, w.middle_fall)
+        order = degrees.precedes(degrees.middle(points, self._landmark(of, depth)), w.rank_blur)
+        return degrees.ranked(order, candidates, 1, w.middle_fall)
 
     def _before_person(self, part: Relation, candidates: Array) -> Array:
         """Return how far each item is in front of a person, next to, or on a side of them."""
-        w = self.w
-        who = self._people[part.landmark] if isinstance(part.landmark, Person) else WIDE
+        w, whom = self.w, part.landmark
+        if not isinstance(whom, Person):
+            return np.ones((1, 1, self.table.size))
         if part.name in ("left of", "right of"):
-            along = LATERAL[part.name.split()[0]] * self.table.right[who]
-            return degrees.ranked(-along, candidates, 1, w.rank_blur, w.extreme_fall)
-        near = np.stack([self._nearness(SPEAKER), self._nearness(LISTENER)], axis=-3)
-        value = np.take(near, who, axis=-3)[..., 0, :]
+            return degrees.ranked(self._order(part.name.split()[0], whom), candidates, 1, w.extreme_fall)
+        order = self._nearest_to(whom)
         if part.name == "away from":
-            value = -value
+            order = np.swapaxes(order, -1, -2)
         elif part.name == "in front of":
-            value = value + w.aside * np.abs(self.table.right[who])
-        return degrees.ranked(value, candidates, 1, w.rank_blur, w.front_fall)
+            aside = np.abs(self.table.right[self._people[whom]])
+            order = self._ordered(("before", whom), lambda: self._nearness_to(whom) + w.aside * aside)
+        return degrees.ranked(order, candidates, 1, w.front_fall)
 
     def _relation(self, part: Relation, depth: int) -> Array:
         both = (
@@ -364,11 +395,7 @@ class Denotation:
         return UPON[way] * axes[DEEP, 1]
 
     def _between(self, part: Between, depth: int) -> Array:
-        holds = self._kept.get("between")
         w = self.w
-        if holds is None:
-            holds = degrees.between(self.table.distances, w.between_wide, w.between_reach, w.between_even)
-            self._kept["between"] = holds
         first, second = part.first, part.second
         if second is None and isinstance(first, Description) and len(first.parts) == 1:
             only = first.parts[0]
@@ -376,7 +403,15 @@ class Denotation:
                 first, second = only.first, only.second
         one = self._landmark(first, depth)
         other = one if second is None else self._landmark(second, depth)
-        return (holds * one[..., None, :, None] * other[..., None, None, :]).max(axis=(-1, -2))
+        some, others = _likely(one), _likely(other)
+        holds = degrees.between(self.table.distances, some, others, (w.between_wide, w.between_reach, w.between_even))
+        return (holds * one[..., None, some, None] * other[..., None, None, others]).max(axis=(-1, -2))
+
+
+def _likely(landmarks: Array) -> Integers:
+    """Return the indices of the items that may be a landmark; of all if none is."""
+    found = np.flatnonzero(landmarks.max(axis=tuple(range(landmarks.ndim - 1))) > UNLIKELY)
+    return found if len(found) else np.arange(landmarks.shape[-1])
 
 
 def ranks(part: Form) -> bool:

@@ -19,12 +19,14 @@ from fetch_pomdp.core.language.reading.form import (
     Count,
     Description,
     Form,
+    Known,
     Middle,
     Near,
     Not,
     Ordinal,
     Person,
     Relation,
+    Same,
     Select,
     Side,
     Superlative,
@@ -40,6 +42,20 @@ IGNORED = 0.7  # cost of a description that is left out
 
 
 @dataclass(frozen=True, slots=True)
+class Before:
+    """What was going on before an utterance.
+
+    meaning: what was meant last. asked: the item that the robot asked about.
+    """
+
+    meaning: Description | None = None
+    asked: int | None = None
+
+
+NOTHING_BEFORE = Before()
+
+
+@dataclass(frozen=True, slots=True)
 class Candidate:
     """A reading before its weight is known. skipped: the cost of the words left out."""
 
@@ -49,11 +65,14 @@ class Candidate:
     nested: int = 0  # parts of landmarks beside their words
 
 
-def candidates(kinds: Sequence[str], found: Sequence[Sequence[Cover]]) -> list[Candidate]:
+def candidates(
+    kinds: Sequence[str], found: Sequence[Sequence[Cover]], before: Before = NOTHING_BEFORE
+) -> list[Candidate]:
     """Return the readings of an utterance, best first. kinds, found: how each clause begins, and its covers."""
     result: dict[Description, Candidate] = {}
     for covers in itertools.islice(_cheapest(found), 3 * READINGS):
         meaning, ignored = _assembled(kinds, [cover.meanings for cover in covers])
+        meaning = _grounded(meaning, before)
         cost = sum(cover.cost for cover in covers) + ignored
         if meaning not in result or cost < result[meaning].cost:
             skipped = sum(cover.skipped for cover in covers)
@@ -94,7 +113,9 @@ class _Discourse:
         said = self._joined(fragments)
         if said is None:
             return
-        if kind == "skip":
+        if kind == "correct":
+            self._correct(said)
+        elif kind == "skip":
             self.refused.append(self._resolved(said))
         elif kind == "more" and self.target is not None:
             self.target = self.target.plus(*self._resolved(said).parts)
@@ -106,6 +127,13 @@ class _Discourse:
             self.spoken.append(self._resolved(said))
         else:
             self.target = self._added(self.target, self._resolved(said))
+
+    def _correct(self, said: Description) -> None:
+        """Put what is said now in the place of what was said before; of that only words hold that are not replaced."""
+        before = self.target or (self.spoken[-1] if self.spoken else None)
+        if before is not None and not words_of(said):
+            said = Description(tuple(part for part in before.parts if isinstance(part, Select))).plus(*said.parts)
+        self.target, self.spoken, self.refused = said, [], []
 
     def _joined(self, fragments: Sequence[Any]) -> Description | None:
         """Return the first description with the parts that stand alone; another one joins it if it may be the same."""
@@ -220,11 +248,35 @@ def _antecedent(anaphor: Anaphor, before: Sequence[Description]) -> Description:
     for each in reversed(before):
         if each.plural or not anaphor.plural:
             return each
-    return before[-1] if before else Description()
+    return before[-1] if before else Description((anaphor,))
+
+
+def _grounded(meaning: Description, before: Before) -> Description:
+    """Put what was going on before the utterance in the place of what still refers to something."""
+    parts: list[Form] = []
+    for part in meaning.parts:
+        if isinstance(part, Same):
+            parts += () if before.meaning is None else before.meaning.parts
+        elif isinstance(part, Anaphor):
+            parts += () if before.asked is None or not part.other else (Not(Known(before.asked)),)
+        else:
+            parts.append(_grounded_inside(part, before))
+    return Description(tuple(dict.fromkeys(parts)))
+
+
+def _grounded_inside(part: Any, before: Before) -> Any:
+    if isinstance(part, Description):
+        if before.asked is not None and any(isinstance(each, Anaphor) and not each.other for each in part.parts):
+            return Description((Known(before.asked),))
+        return _grounded(part, before)
+    if isinstance(part, Anaphor):
+        return Description(() if before.asked is None or part.other else (Known(before.asked),))
+    return rebuilt(part, lambda each: _grounded_inside(each, before))
 
 
 def settled(said: Description) -> Description:
     """Return a description whose ordinals, nears and fars have found what they count from, and so its landmarks'."""
+    said = _one_group(said)
     parts = [_settled_inside(_with_words(part, said)) for part in said.parts]
     ranks = [part.rank for part in parts if isinstance(part, Ordinal)]
     nears = [part for part in parts if isinstance(part, Near)]
@@ -241,6 +293,16 @@ def settled(said: Description) -> Description:
     else:
         rest += [each for each in towards if isinstance(each, Side)]
     return Description(tuple(dict.fromkeys(rest)))
+
+
+def _one_group(said: Description) -> Description:
+    """Return "those three" of a group of three as that group: it is the same one."""
+    groups = [part.group for part in said.parts if isinstance(part, Within)]
+    group = next((each for each in groups if isinstance(each, Description) and each.plural), None)
+    if group is None or not said.plural or words_of(said) - words_of(group):
+        return said
+    rest = (part for part in said.parts if not isinstance(part, Within | Count | Cluster))
+    return _one_group(group).plus(*rest)
 
 
 def _with_words(part: Form, said: Description) -> Form:

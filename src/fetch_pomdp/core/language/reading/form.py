@@ -206,6 +206,24 @@ class Anaphor:
 
 
 @dataclass(frozen=True, slots=True)
+class Known:
+    """The very item that was spoken of, such as the one that the robot asked about."""
+
+    index: int
+
+    def __str__(self) -> str:
+        return "the one asked about"
+
+
+@dataclass(frozen=True, slots=True)
+class Same:
+    """What was meant before."""
+
+    def __str__(self) -> str:
+        return "the same"
+
+
+@dataclass(frozen=True, slots=True)
 class Union:
     """What either of two descriptions fits."""
 
@@ -237,7 +255,7 @@ class Description:
 
 Form = (
     Select | Side | Superlative | Relation | Between | Middle | Alone | Crowded | Within | Count | Cluster | Ordinal
-    | Near | Toward | Seen | Not | Anaphor | Union | Description
+    | Near | Toward | Seen | Not | Anaphor | Known | Same | Union | Description
 )  # fmt: skip
 
 Made = TypeVar("Made", bound=Form)

@@ -18,7 +18,7 @@ from fetch_pomdp.errors import InputError
 
 LANGUAGES = ("english", "german")
 LONGEST = 7  # words of a phrase in a lexicon
-BREAKS = ("verb", "look", "more", "skip")  # categories that begin a clause
+BREAKS = ("verb", "look", "more", "skip", "correct")  # categories that begin a clause
 
 
 @dataclass(frozen=True, slots=True)

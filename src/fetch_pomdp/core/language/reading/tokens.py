@@ -132,55 +132,50 @@ def _break_at(words: Sequence[str], place: int, grammar: Grammar, vocabulary: Vo
 
 def _clause(kind: str, words: Sequence[str], vocabulary: Vocabulary, grammar: Grammar) -> Clause:
     known = [_resolved(word, vocabulary, grammar) for word in words]
-    leaves: list[tuple[int, int, str, str]] = []
-    starts: set[int] = set()
-    skips: list[float] = []
-    for place, word in enumerate(known):
-        here = list(_leaves_at(known, place, vocabulary, grammar))
-        leaves += here
-        if here:
-            starts.add(place)
-        single = [category for _, end, category, _ in here if end == place + 1]
-        if not here and word in grammar.noise:
-            skips.append(0.0)
-        elif not here:
-            skips.append(UNKNOWN if word not in grammar.known and word not in vocabulary.general else 0.3)
-        elif word in grammar.noise:
-            skips.append(0.1)
-        else:
-            skips.append(min((SKIPPED.get(category, CONTENT) for category in single), default=0.5))
+    here = [list(_leaves_at(known, place, vocabulary, grammar)) for place in range(len(known))]
+    inside = {place for leaves in here for start, end, _, _ in leaves for place in range(start, end)}
+    noise = [word in grammar.noise for word in known]
+    empty = [noise[place] or place not in inside for place in range(len(known))]
     tokens = [
         Token(start, stop, category, value)
+        for leaves in here
         for start, end, category, value in leaves
-        for stop in _stops(known, end, starts, grammar)
+        for stop in _stops(end, here, empty)
     ]
-    # Noise at the beginning belongs to the first token.
-    lead = next((place for place, word in enumerate(known) if word not in grammar.noise or place in starts), 0)
+    # What says nothing at the beginning belongs to the first token.
+    lead = next((place for place, each in enumerate(empty) if not each), 0)
     tokens += [Token(0, token.end, token.category, token.value) for token in tokens if lead and token.start == lead]
-    unknown = tuple(
-        word
-        for place, word in enumerate(words)
-        if not any(start <= place < end for start, end, _, _ in leaves)
-        and known[place] not in grammar.known
-        and known[place] not in vocabulary.general
-    )
-    return Clause(kind, tuple(words), tuple(tokens), tuple(skips), unknown)
+    skips = [0.1 if said and leaves else 0.0 for leaves, said in zip(here, noise, strict=True)]
+    for start, end, category, value in (leaf for leaves in here for leaf in leaves):
+        if (category, value) != ("num", "1"):
+            for place in range(start, end):
+                cost = SKIPPED.get(category, CONTENT) / (end - start)
+                skips[place] = skips[place] if noise[place] else max(skips[place], cost)
+    unknown = []
+    for place, word in enumerate(known):
+        if empty[place] and not noise[place] and word not in grammar.known and word not in vocabulary.general:
+            unknown.append(words[place])
+            skips[place] = UNKNOWN
+    return Clause(kind, tuple(words), tuple(tokens), tuple(skips), tuple(unknown))
 
 
-def _stops(words: Sequence[str], end: int, starts: set[int], grammar: Grammar) -> list[int]:
-    """Return where a token that ends at `end` may end: noise after it is a part of it, unless a phrase begins there."""
+_Leaf = tuple[int, int, str, str]  # start, end, category, value
+
+
+def _stops(end: int, here: Sequence[Sequence[_Leaf]], empty: Sequence[bool]) -> list[int]:
+    """Return where a token that ends at `end` may end: what says nothing after it is a part of it, unless a phrase
+    begins there.
+    """
     stops = []
     place = end
-    while place < len(words) and words[place] in grammar.noise:
-        if place in starts:
+    while place < len(empty) and empty[place]:
+        if here[place]:
             stops.append(place)
         place += 1
     return [*stops, place]
 
 
-def _leaves_at(
-    words: Sequence[str], place: int, vocabulary: Vocabulary, grammar: Grammar
-) -> Iterable[tuple[int, int, str, str]]:
+def _leaves_at(words: Sequence[str], place: int, vocabulary: Vocabulary, grammar: Grammar) -> Iterable[_Leaf]:
     for size in range(1, min(LONGEST, len(words) - place) + 1):
         for leaf in grammar.lexicon.get(tuple(words[place : place + size]), ()):
             if (

@@ -6,15 +6,20 @@ gradient by differences costs little more than one evaluation.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
+from fetch_pomdp import checks
 from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.documents import read_toml
+from fetch_pomdp.errors import InputError
 
 # name: (value before any data, whether it is positive and so fitted as a factor, what it is)
 WEIGHTS: Mapping[str, tuple[float, bool, str]] = {
@@ -105,3 +110,24 @@ def theta_of(named: Mapping[str, float]) -> Vector:
         0.0 if name not in named else math.log(named[name] / value) if positive else named[name] - value
         for name, (value, positive, _) in WEIGHTS.items()
     ])  # fmt: skip
+
+
+@functools.cache
+def shipped() -> Mapping[str, float]:
+    """Return the weights that come with the package, by name: learnt as their file says."""
+    return weights_of(Path(__file__).with_name("weights.toml"))
+
+
+def weights_of(path: str | Path) -> Mapping[str, float]:
+    """Return the weights of a file, by name. Raises InputError for a name or value that is none."""
+    return read_toml(path, InputError).build(_checked)
+
+
+def _checked(data: Mapping[str, Any]) -> Mapping[str, float]:
+    found = data.get("weights", {})
+    checks.known(found, NAMES, "weight", InputError)
+    for name, value in found.items():
+        positive = WEIGHTS[name][1]
+        expected = "a number above 0" if positive else "a number"
+        checks.within(value, 1e-9 if positive else -1e9, 1e9, f"weights.{name}", expected, InputError)
+    return dict(found)

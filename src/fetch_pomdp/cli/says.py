@@ -1,0 +1,65 @@
+"""The command explain: what the robot makes of what somebody says about a table."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from fetch_pomdp.cli.options import Json, SceneName, as_json
+from fetch_pomdp.cli.show import MOST_BARS
+from fetch_pomdp.cli.terminal import Terminal
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.language.reading.grammar import LANGUAGES
+from fetch_pomdp.core.language.reading.reader import Context, Heard, TableReader
+from fetch_pomdp.core.language.reading.telling import told
+from fetch_pomdp.core.language.reading.tokens import words_of
+from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.errors import InputError
+
+Says = Annotated[list[str], typer.Option("--says", metavar="TEXT", help="What is said; repeatable, in order.")]
+Language = Annotated[str, typer.Option(help=f"One of {', '.join(LANGUAGES)}.")]
+
+
+def explain(scene: SceneName, says: Says, language: Language = "english", json_lines: Json = False) -> None:
+    """Print what is understood of a request: its readings, and how likely it means each item.
+
+    With --json, or into a file or pipe, one JSON object for each --says.
+    """
+    if language not in LANGUAGES:
+        raise InputError(f"found {language!r}, expected one of {', '.join(LANGUAGES)}", field="language")
+    table, reader, context = Scene.load(scene), TableReader(language), Context()
+    for text in says:
+        heard = reader.read(words_of(text), table, context)
+        context = heard.context
+        chances = np.exp(heard.log_likelihood)
+        if as_json(json_lines):
+            print(json.dumps(_as_json(heard, table, chances), ensure_ascii=False))
+        else:
+            _show(heard, table, chances)
+
+
+def _as_json(heard: Heard, scene: Scene, chances: Vector) -> dict[str, Any]:
+    return {
+        "understood": told(heard),
+        "readings": [{"meaning": str(each.meaning), "chance": each.chance} for each in heard.readings],
+        "unknown": list(heard.unknown),
+        "lost": heard.lost,
+        "items": {item.id: float(chance) for item, chance in zip(scene.items, chances, strict=True)},
+    }
+
+
+def _show(heard: Heard, scene: Scene, chances: Vector) -> None:
+    console = Terminal()
+    console.print(escape(told(heard)))
+    for each in heard.readings[:3]:
+        console.print(f"  {each.chance:4.0%}  {escape(str(each.meaning))}")
+    table = Table("item", box=None, padding=(0, 2, 0, 0))
+    table.add_column("chance", justify="right")
+    for index in np.argsort(-chances, kind="stable")[:MOST_BARS]:
+        table.add_row(escape(scene.items[index].id), f"{chances[index]:.1%}")
+    console.print(table)

@@ -1,0 +1,112 @@
+"""Learns the reader's weights from requests: maximum likelihood of what was meant, with a normal prior around none.
+
+Choice: the target counts for 0.6 of a request, and what its listeners took it for for the rest: half of what separates
+a reader from a writer is that the writer erred, and ten listeners tell how sure one may be.
+
+Choice: gradients are differences. All variants of the weights go through the same arrays at once, so that a gradient
+costs some ten evaluations, not fifty; and the reader stays plain arithmetic, without a library that differentiates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.language.reading.degrees import Array
+from fetch_pomdp.core.language.reading.denotation import Denotation
+from fetch_pomdp.core.language.reading.grammar import Grammar, grammar
+from fetch_pomdp.core.language.reading.likelihood import understood, view_prior
+from fetch_pomdp.core.language.reading.reader import Parsed, parse
+from fetch_pomdp.core.language.reading.table import Table
+from fetch_pomdp.core.language.reading.tokens import words_of
+from fetch_pomdp.core.language.reading.weights import NAMES, Weights
+from fetch_pomdp.extras import load
+from fetch_pomdp.study.requests.corpus import Corpus
+
+MEANT = 0.6  # weight of the target, against the listeners
+PRIOR = 4.0  # precision of the normal prior of each weight's logarithm or difference
+STEP = 1e-3  # of the differences
+LEAST = 1e-12
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Example:
+    """Requests about a table that are read alike: their readings, and how often each item was meant."""
+
+    table: int
+    parsed: Parsed
+    meant: Vector  # (n_items,), weights
+    requests: tuple[int, ...]  # indices into the corpus
+
+
+class Learner:
+    """The examples of a corpus, ready to be fitted to any choice of its tables."""
+
+    def __init__(self, corpus: Corpus, language: str = "english") -> None:
+        self.grammar: Grammar = grammar(language)
+        self.tables = {number: Table.of(scene) for number, scene in corpus.scenes.items()}
+        self.examples = _examples(corpus, self.tables, self.grammar)
+
+    def chances(self, examples: Sequence[Example], weights: Weights) -> list[Array]:
+        """Return what each example's words say of each item, (..., n_items)."""
+        prior, kept, found = view_prior(weights), dict[int, Denotation](), []
+        for each in examples:
+            if each.table not in kept:
+                kept[each.table] = Denotation(self.tables[each.table], self.grammar, weights)
+            parsed, meaning = each.parsed, kept[each.table]
+            result = understood(parsed.found, meaning, weights, views=prior, confusion=parsed.confusion)
+            found.append(result.chances)
+        return found
+
+    def fit(self, tables: Sequence[int], *, steps: int = 14) -> Vector:
+        """Return the weights learnt from some tables, as a point for `Weights.at`, (n_weights,)."""
+        optimize = load("scipy.optimize", "study")
+        by_table = [[each for each in self.examples if each.table == table] for table in tables]
+
+        def loss(theta: Vector) -> tuple[float, Vector]:
+            values = sum((self._loss(examples, theta) for examples in by_table), start=np.zeros(len(theta) + 1))
+            total = values[0] + PRIOR * float((theta**2).sum()) / 2.0
+            return float(total), (values[1:] - values[0]) / STEP + PRIOR * theta
+
+        options = {"maxiter": steps, "maxfun": steps + 6}
+        found = optimize.minimize(loss, np.zeros(len(NAMES)), jac=True, method="L-BFGS-B", options=options)
+        return np.asarray(found.x)
+
+    def _loss(self, examples: Sequence[Example], theta: Vector) -> Vector:
+        """Return the loss at a point and at a step from it along each weight, (1 + n_weights,)."""
+        variants = np.concatenate([theta[:, None], theta[:, None] + STEP * np.eye(len(theta))], axis=1)
+        total = np.zeros(variants.shape[1])
+        for each, chances in zip(examples, self.chances(examples, Weights.at(variants)), strict=True):
+            total = total - np.log(np.maximum(chances, LEAST)) @ each.meant
+        return total
+
+    def read(self, theta: Vector, tables: Sequence[int]) -> dict[int, Vector]:
+        """Return the chances of the items, (n_items,), for each request about some tables, by its index."""
+        examples = [each for each in self.examples if each.table in tables]
+        found = self.chances(examples, Weights.at(theta))
+        return {
+            index: chances.reshape(-1) for each, chances in zip(examples, found, strict=True) for index in each.requests
+        }
+
+
+def _examples(corpus: Corpus, tables: dict[int, Table], language: Grammar) -> list[Example]:
+    alike: dict[object, list[int]] = {}
+    parsed: dict[object, Parsed] = {}
+    for index, each in enumerate(corpus.requests):
+        found = parse(words_of(each.text), tables[each.table].vocabulary, language)
+        key = (each.table, found.found, found.confusion)
+        parsed.setdefault(key, found)
+        alike.setdefault(key, []).append(index)
+    examples = []
+    for kind, indices in alike.items():
+        meant = np.zeros(tables[corpus.requests[indices[0]].table].size)
+        for index in indices:
+            each = corpus.requests[index]
+            share = MEANT if each.clicked.any() else 1.0
+            meant[each.target] += share
+            meant += (1.0 - share) * each.clicked
+        examples.append(Example(corpus.requests[indices[0]].table, parsed[kind], meant, tuple(indices)))
+    return examples
