@@ -16,7 +16,7 @@ from fetch_pomdp.core.language.reading.actions import ACTIONS
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError
 
-LANGUAGES = ("english", "german")
+LANGUAGES = ("english",)
 LONGEST = 7  # words of a phrase in a lexicon
 BREAKS = ("verb", "look", "more", "skip", "correct")  # categories that begin a clause
 
