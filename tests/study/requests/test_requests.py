@@ -41,7 +41,7 @@ def test_a_corpus_has_tables_and_what_was_said(folder: Path) -> None:
     first = corpus.requests[0]
     assert (first.table, first.target, first.view) == (1, 0, "user")
     assert first.clicked.tolist() == [0.75, 0.25, 0.0]
-    assert first.listeners_right == 0.75
+    assert (first.listeners_right, corpus.requests[2].listeners_right) == (1.0, 0.5)
     assert corpus.scenes[1].items[2].position == (0.0, 0.8, 0.75)
 
 
@@ -55,7 +55,7 @@ def test_what_is_wrong_with_a_corpus_is_said_with_its_line(folder: Path) -> None
 
 
 def request(target: int) -> Request:
-    return Request(1, target, "", np.array([0.5, 0.5]))
+    return Request(1, target, "", np.array([0.5, 0.5]), 0.7)
 
 
 def test_scores_against_values_by_hand() -> None:
@@ -64,7 +64,7 @@ def test_scores_against_values_by_hand() -> None:
     assert found.right == pytest.approx((1 + 0 + 0.5) / 3)
     assert found.log_loss == pytest.approx(-(math.log(0.8) + math.log(0.4) + math.log(0.5)) / 3)
     assert found.calibration_error == pytest.approx((abs(0.8 - 1) + abs(0.6 - 0) + abs(0.5 - 0.5)) / 3)
-    assert (found.listeners, found.agreeing) == (0.5, 0.5)
+    assert (found.listeners, found.agreeing) == (pytest.approx(0.7), 0.5)
 
 
 def test_learning_makes_what_was_meant_likelier(folder: Path) -> None:

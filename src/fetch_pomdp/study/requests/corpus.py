@@ -36,12 +36,8 @@ class Request:
     target: int  # index of the item that was meant
     text: str
     clicked: Vector  # (n_items,), the share of the listeners who took it for each item; zeros where none were asked
+    listeners_right: float = 0.0  # the share of all listeners who took it for what was meant
     view: str = ""  # whose view the words need, as annotators judged: neither, ambiguous, agent, user
-
-    @property
-    def listeners_right(self) -> float:
-        """The share of the listeners who took it for what was meant."""
-        return float(self.clicked[self.target])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,4 +96,6 @@ def _request(row: Mapping[str, str], scenes: Mapping[int, Scene]) -> Request:
             clicked[ids[each.strip()]] += 1.0
     if clicked.any():
         clicked /= clicked.sum()
-    return Request(table, ids[row["target"].strip()], row["request"], clicked, row.get("view") or "")
+    target = ids[row["target"].strip()]
+    listeners = float(row.get("listeners_right") or clicked[target])
+    return Request(table, target, row["request"], clicked, listeners, row.get("view") or "")

@@ -20,6 +20,7 @@ from fetch_pomdp.core.language.reading.denotation import Denotation
 from fetch_pomdp.core.language.reading.grammar import Grammar, grammar
 from fetch_pomdp.core.language.reading.likelihood import understood, view_prior
 from fetch_pomdp.core.language.reading.reader import Parsed, parse
+from fetch_pomdp.core.language.reading.speaker import ease
 from fetch_pomdp.core.language.reading.table import Table
 from fetch_pomdp.core.language.reading.tokens import words_of
 from fetch_pomdp.core.language.reading.weights import NAMES, Weights
@@ -52,12 +53,13 @@ class Learner:
 
     def chances(self, examples: Sequence[Example], weights: Weights) -> list[Array]:
         """Return what each example's words say of each item, (..., n_items)."""
-        prior, kept, found = view_prior(weights), dict[int, Denotation](), []
+        prior, kept, found = view_prior(weights), dict[int, tuple[Denotation, Array]](), []
         for each in examples:
             if each.table not in kept:
-                kept[each.table] = Denotation(self.tables[each.table], self.grammar, weights)
-            parsed, meaning = each.parsed, kept[each.table]
-            result = understood(parsed.found, meaning, weights, views=prior, confusion=parsed.confusion)
+                fresh = Denotation(self.tables[each.table], self.grammar, weights)
+                kept[each.table] = fresh, ease(fresh)
+            parsed, (meaning, easy) = each.parsed, kept[each.table]
+            result = understood(parsed.found, meaning, weights, views=prior, confusion=parsed.confusion, ease=easy)
             found.append(result.chances)
         return found
 

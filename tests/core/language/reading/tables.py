@@ -23,7 +23,7 @@ LINE = scene(("red mug", -0.3, 0.8), ("green mug", -0.1, 0.8), ("red mug", 0.1, 
 # Three bowls in a row on the person's right, a lone bowl on their left, plates near and far.
 ROOM = scene(
     ("blue bowl", 0.2, 0.9), ("blue bowl", 0.3, 0.9), ("blue bowl", 0.4, 0.9), ("blue bowl", -0.4, 0.7),
-    ("white plate", 0.0, 0.5), ("white plate", 0.0, 1.2), ("black pan", -0.2, 1.0),
+    ("white plate", 0.0, 0.5), ("white plate", 0.0, 1.2), ("black pan", -0.3, 0.95),
 )  # fmt: skip
 
 

@@ -37,7 +37,7 @@ def test_every_category_of_a_rule_has_words_or_rules(language: str) -> None:
         ("the mug that has a bowl behind it", "mug, in front of bowl"),
         ("the middle one of the three mugs", "in the middle, one of (mug, 3 together)"),
         (
-            "there are two mugs on the left. take the one nearer to you",
+            "there are two mugs on the left. take the one closer to you",
             "closest to you, one of (mug, 2 together, left)",
         ),
         ("find the white bowl. give me the mug right behind it", "mug, directly behind (white, bowl)"),

@@ -63,21 +63,22 @@ def middle(points: Vector, members: Array) -> Array:
     return np.sqrt(((points - centre[..., None, :]) ** 2).sum(axis=-1))
 
 
-def toward(offsets: Array, distances: Array, axis: Array, turn: Array, reach: Array) -> Array:
+def toward(offsets: Array, near: Array, axis: Array, turn: Array, reach: Array) -> Array:
     """Return how far each item is in a direction from each landmark (..., n, n), from 0 to 1.
 
-    offsets: (n, n, 2), from landmark to item. distances: (n, n). axis: (..., 2), unit direction.
+    offsets: (n, n, 2), from landmark to item. near: (n, n), their distances. axis: (..., 2), unit direction.
     """
-    along = (offsets * axis[..., None, None, :]).sum(axis=-1) / np.maximum(distances, 1e-9)
+    lengths = np.sqrt((offsets**2).sum(axis=-1))
+    along = (offsets * axis[..., None, None, :]).sum(axis=-1) / np.maximum(lengths, 1e-9)
     turn, reach = np.expand_dims(np.asarray(turn), -1), np.expand_dims(np.asarray(reach), -1)
-    degree = np.exp(turn * (along - 1.0) - np.maximum(distances - 1.0, 0.0) / (2.0 * reach))
-    return degree * (1.0 - np.eye(distances.shape[0]))
+    degree = np.exp(turn * (along - 1.0) - np.maximum(near - 1.0, 0.0) / (2.0 * reach))
+    return degree * (1.0 - np.eye(near.shape[0]))
 
 
-def beside(distances: Array, reach: Array) -> Array:
-    """Return how far each item is next to each landmark (..., n, n), from 0 to 1. distances: (n, n)."""
+def beside(near: Array, reach: Array) -> Array:
+    """Return how far each item is next to each landmark (..., n, n), from 0 to 1. near: (n, n), their distances."""
     reach = np.expand_dims(np.asarray(reach), -1)
-    return np.exp(-np.maximum(distances - 0.8, 0.0) / reach) * (1.0 - np.eye(distances.shape[0]))
+    return np.exp(-np.maximum(near - 0.8, 0.0) / reach) * (1.0 - np.eye(near.shape[0]))
 
 
 def between(distances: Array, some: Integers, others: Integers, shape: tuple[Array, Array, Array]) -> Array:

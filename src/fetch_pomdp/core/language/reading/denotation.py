@@ -68,6 +68,11 @@ class Denotation:
             whom: np.array([person_in(view, whom) for view in VIEWS]) for whom in Person
         }
 
+    @property
+    def kept(self) -> int:
+        """How many degrees are kept."""
+        return len(self._kept)
+
     def of(self, said: Description, depth: int = 0) -> Array:
         """Return how far each item is what is said."""
         if said not in self._kept:
@@ -268,7 +273,9 @@ class Denotation:
         return self._ordered(whom, lambda: self._nearness_to(whom))
 
     def _lonely(self, candidates: Array, sign: float, fall: Array) -> Array:
-        apart = np.sort(self.table.distances, axis=1)[:, 1 : 2 if sign < 0 else 5].mean(axis=1)
+        apart = np.sort(self.table.distances, axis=1)[:, min(1, self.table.size - 1) : 2 if sign < 0 else 5].mean(
+            axis=1
+        )
         return degrees.ranked(self._ordered(("apart", sign), lambda: sign * apart), candidates, 1, fall)
 
     def _superlative(self, part: Superlative, candidates: Array, depth: int) -> Array:
@@ -377,14 +384,14 @@ class Denotation:
         """Return how far a relation holds of each item and each landmark, (variants, views, n, n)."""
         w, table = self.w, self.table
         if name in REACHES:
-            return degrees.beside(table.distances, getattr(w, REACHES[name]) * (w.direct_reach if direct else 1.0))
+            return degrees.beside(table.near, getattr(w, REACHES[name]) * (w.direct_reach if direct else 1.0))
         ways = WAYS.get(name) or tuple(each for each in name.split() if each in LATERAL | UPRIGHT | UPON)
         axis = sum((self._axis(way) for way in ways), start=np.zeros((len(VIEWS), 2)))
         axis = axis / np.maximum(np.sqrt((axis**2).sum(axis=-1, keepdims=True)), 1e-9)
-        offsets = (table.points[:, None] - table.points[None]) / table.spacing
+        offsets = table.points[:, None] - table.points[None]
         turn = w.way_turn * (w.direct_turn if direct else 1.0)
         reach = w.way_reach * (w.direct_reach if direct else 1.0)
-        return degrees.toward(offsets, table.distances, axis, turn, reach)
+        return degrees.toward(offsets, table.near, axis, turn, reach)
 
     def _axis(self, way: str) -> Array:
         axes = self.table.axes

@@ -16,7 +16,7 @@ from fetch_pomdp.core.language.reading.actions import ACTIONS
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError
 
-LANGUAGES = ("english",)
+LANGUAGES = ("english", "german")
 LONGEST = 7  # words of a phrase in a lexicon
 BREAKS = ("verb", "look", "more", "skip", "correct")  # categories that begin a clause
 
@@ -45,6 +45,7 @@ class Grammar:
 
     language: str
     noise: frozenset[str]
+    endings: tuple[tuple[str, str], ...]  # of inflected words, and what stands in their place in a dictionary
     lexicon: Mapping[tuple[str, ...], tuple[Leaf, ...]]
     synonyms: Mapping[str, tuple[str, ...]]  # of a word, those that a table may have in its place
     colours: Mapping[str, tuple[float, ...]]
@@ -75,6 +76,7 @@ def grammar(language: str) -> Grammar:
     return Grammar(
         data["language"],
         frozenset(data["noise"].split()),
+        tuple((ending, instead) for ending, _, instead in (each.partition("=") for each in data["endings"].split())),
         {words: tuple(dict.fromkeys(leaves)) for words, leaves in lexicon.items()},
         {word: tuple(names) for word, names in synonyms.items()},
         {name: tuple(rgb) for name, rgb in data.get("colours", {}).items()},

@@ -50,17 +50,20 @@ def understood(
     *,
     views: Array,
     confusion: tuple[float, float],
+    ease: Array,
 ) -> Understood:
     """Return what readings say of each item. views: (..., views), log prior. confusion: shares of the words that nobody
-    knows, and that were left out.
+    knows, and that were left out. ease: (..., n), how easily each item is told apart (`speaker`).
     """
     w, n = weights.values, denotation.table.size
+    avoided = np.exp(-w_(w.speaker) * ease)[..., None, :]
     logs, fits = [], []
     for each in found:
         degree = np.maximum(denotation.of(each.meaning), LEAST) + np.zeros((1, len(VIEWS), n))
-        total = degree.sum(axis=-1, keepdims=True)
-        logs.append(np.log(degree / total))
         peak = degree.max(axis=-1)
+        if each.meaning.parts:  # who says nothing of an item has not left out what tells it apart
+            degree = degree * avoided
+        logs.append(np.log(degree / degree.sum(axis=-1, keepdims=True)))
         named = _named(each.meaning, weights)
         prior = np.asarray(views) + named
         fits.append(w_(w.fits) * np.log(peak) + prior - w_(w.cost) * (each.cost + w_(w.nested) * each.nested))

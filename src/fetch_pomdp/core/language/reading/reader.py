@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -13,15 +14,21 @@ import numpy as np
 
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.language.reading.chart import covers
+from fetch_pomdp.core.language.reading.degrees import Array
 from fetch_pomdp.core.language.reading.denotation import Denotation
 from fetch_pomdp.core.language.reading.discourse import NOTHING_BEFORE, Before, Candidate, candidates
 from fetch_pomdp.core.language.reading.form import Description
 from fetch_pomdp.core.language.reading.grammar import Grammar, grammar
 from fetch_pomdp.core.language.reading.likelihood import understood, view_prior
+from fetch_pomdp.core.language.reading.speaker import ease
 from fetch_pomdp.core.language.reading.table import Table
 from fetch_pomdp.core.language.reading.tokens import Vocabulary, clauses
 from fetch_pomdp.core.language.reading.weights import Weights, shipped
 from fetch_pomdp.core.scene import Scene
+
+SCENES = 8  # that are kept
+MEANINGS = 2_000  # of a scene that are kept
+LEAST = 1e-6  # chance of a view
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,39 +99,57 @@ def parse(words: Sequence[str], vocabulary: Vocabulary, language: Grammar, befor
     return Parsed(tuple(found), unknown, (2.0 * len(unknown) / count, found[0].skipped), corrects)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Place:
+    """A scene as the reader knows it: what it computed of it once."""
+
+    scene: Scene
+    table: Table
+    denotation: Denotation
+    ease: Array
+
+
 class TableReader:
-    """Reads with a grammar, with weights learnt from what people said. Keeps what it computed of a scene."""
+    """Reads with a grammar, with weights learnt from what people said. Keeps what it computed of the last scenes."""
 
     def __init__(self, language: str = "english", weights: Weights | None = None) -> None:
         self.grammar = grammar(language)
         self.weights = Weights.of(shipped()) if weights is None else weights
         self._prior = view_prior(self.weights)
-        self._tables: dict[int, tuple[Scene, Table]] = {}
+        self._places: dict[int, _Place] = {}
 
     def read(self, words: Sequence[str], scene: Scene, context: Context) -> Heard:
         """Read what was said about a scene."""
-        table = self._table(scene)
-        parsed = parse(words, table.vocabulary, self.grammar, context.before)
+        place = self._place(scene)
+        parsed = parse(words, place.table.vocabulary, self.grammar, context.before)
         views = self._prior if context.views is None else np.array(context.views)
-        denotation = Denotation(table, self.grammar, self.weights)
-        result = understood(parsed.found, denotation, self.weights, views=views, confusion=parsed.confusion)
-        chances = result.chances.reshape(-1)
-        order = np.argsort(-result.readings.reshape(-1), kind="stable")
-        readings = tuple(Reading(parsed.found[i].meaning, float(result.readings.reshape(-1)[i])) for i in order)
-        after = tuple(np.log(np.maximum(result.views.reshape(-1), 1e-6)).tolist())
+        result = understood(
+            parsed.found, place.denotation, self.weights, views=views, confusion=parsed.confusion, ease=place.ease
+        )
+        chances, weights = result.chances.reshape(-1), result.readings.reshape(-1)
+        order = np.argsort(-weights, kind="stable")
+        readings = tuple(Reading(parsed.found[index].meaning, float(weights[index])) for index in order)
         meant = readings[0].meaning if readings[0].meaning.parts else context.before.meaning
+        after = result.views.reshape(-1)
         return Heard(
             np.log(chances),
             readings,
             parsed.unknown,
-            tuple(result.views.reshape(-1).tolist()),
+            tuple(after.tolist()),
             float(np.ravel(result.lost)[0]),
             parsed.corrects,
-            Context(after, Before(meant, context.before.asked)),
+            Context(tuple(np.log(np.maximum(after, LEAST)).tolist()), Before(meant, context.before.asked)),
         )
 
-    def _table(self, scene: Scene) -> Table:
-        kept = self._tables.get(id(scene))
-        if kept is None or kept[0] is not scene:
-            kept = self._tables[id(scene)] = (scene, Table.of(scene))
-        return kept[1]
+    def _place(self, scene: Scene) -> _Place:
+        place = self._places.get(id(scene))
+        if place is None or place.scene is not scene:
+            table = Table.of(scene)
+            meaning = Denotation(table, self.grammar, self.weights)
+            while len(self._places) >= SCENES:
+                del self._places[next(iter(self._places))]
+            place = self._places[id(scene)] = _Place(scene, table, meaning, ease(meaning))
+        elif place.denotation.kept > MEANINGS:
+            fresh = Denotation(place.table, self.grammar, self.weights)
+            place = self._places[id(scene)] = dataclasses.replace(place, denotation=fresh)
+        return place

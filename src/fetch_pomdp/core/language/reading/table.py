@@ -33,6 +33,7 @@ class Table:
     vocabularies: tuple[frozenset[str], ...]
     vocabulary: Vocabulary = field(init=False)
     distances: Array = field(init=False)  # (n, n), in distances of neighbours
+    near: Array = field(init=False)  # (n, n), from each item to a landmark; of a landmark far from all, in its distance
     spacing: float = field(init=False)  # m, the median distance of an item to its neighbour
     spread: float = field(init=False)  # m, root mean square distance from the middle of the items
     right: Array = field(init=False)  # (2, n), to each person's right of the middle of the items, in spreads
@@ -56,6 +57,7 @@ class Table:
         for name, value in (
             ("vocabulary", Vocabulary.of(self.vocabularies)),
             ("distances", gaps / spacing),
+            ("near", gaps / np.maximum(nearby, spacing)[None, :]),
             ("spacing", spacing),
             ("spread", spread),
             ("right", right @ centred.T),

@@ -202,15 +202,15 @@ def _resolved(word: str, vocabulary: Vocabulary, grammar: Grammar) -> str:
     mine = vocabulary.named | vocabulary.general
     if word in mine or word in grammar.known or word in grammar.synonyms or word in grammar.colours:
         return word
-    for singular in singulars(word):
-        if singular in mine or singular in grammar.synonyms or singular in grammar.colours:
-            return singular
+    for stem in uninflected(word, grammar):
+        if stem in mine or stem in grammar.synonyms or stem in grammar.colours:
+            return stem
     return nearest(word, mine) or nearest(word, grammar.known - grammar.noise) or word
 
 
-def singulars(word: str) -> Iterable[str]:
-    """Yield what a word may be the plural of."""
-    for ending, instead in (("ves", "fe"), ("ves", "f"), ("ies", "y"), ("es", ""), ("s", ""), ("s", "e"), ("en", "")):
+def uninflected(word: str, grammar: Grammar) -> Iterable[str]:
+    """Yield what a word may be the plural, or another inflected form, of."""
+    for ending, instead in grammar.endings:
         if word.endswith(ending) and len(word) > len(ending) + 1:
             yield word.removesuffix(ending) + instead
 
