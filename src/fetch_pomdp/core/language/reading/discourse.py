@@ -37,7 +37,8 @@ from fetch_pomdp.core.language.reading.form import (
     rebuilt,
 )
 
-READINGS = 6  # of an utterance
+READINGS = 5  # of an utterance
+MARGIN = 2.0  # cost above the best reading's, beyond which one no longer counts
 IGNORED = 0.7  # cost of a description that is left out
 
 
@@ -77,7 +78,8 @@ def candidates(
         if meaning not in result or cost < result[meaning].cost:
             skipped = sum(cover.skipped for cover in covers)
             result[meaning] = Candidate(meaning, cost, skipped, nested(meaning))
-    return sorted(result.values(), key=lambda each: each.cost)[:READINGS]
+    ranked = sorted(result.values(), key=lambda each: each.cost)[:READINGS]
+    return [each for each in ranked if each.cost <= ranked[0].cost + MARGIN]
 
 
 def _cheapest(found: Sequence[Sequence[Cover]]) -> Iterator[tuple[Cover, ...]]:

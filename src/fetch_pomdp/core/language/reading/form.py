@@ -23,10 +23,10 @@ class Person(Enum):
 class Select:
     """Items that a word may refer to."""
 
-    word: str
+    word: str  # "#" before it if it is an id
 
     def __str__(self) -> str:
-        return self.word
+        return self.word.removeprefix("#")
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,20 +69,27 @@ def grammar(language: str) -> Grammar:
                 if words:
                     lexicon.setdefault(words, []).append(Leaf(category, value))
     unary, binary = _rules(data["rules"]["text"])
-    synonyms: dict[str, list[str]] = {}
-    for name, phrases in data.get("synonyms", {}).items():
-        for phrase in phrases.split(","):
-            synonyms.setdefault(" ".join(phrase.split()), []).append(name)
     return Grammar(
         data["language"],
         frozenset(data["noise"].split()),
         tuple((ending, instead) for ending, _, instead in (each.partition("=") for each in data["endings"].split())),
         {words: tuple(dict.fromkeys(leaves)) for words, leaves in lexicon.items()},
-        {word: tuple(names) for word, names in synonyms.items()},
+        _synonyms(data),
         {name: tuple(rgb) for name, rgb in data.get("colours", {}).items()},
         unary,
         binary,
     )
+
+
+def _synonyms(data: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
+    found: dict[str, list[str]] = {}
+    for line in filter(None, map(str.strip, data["words"]["alike"].splitlines())):
+        alike = [" ".join(each.split()) for each in line.split(",")]
+        for each in alike:
+            found.setdefault(each, []).extend(other for other in alike if other != each)
+    for kind, members in data["kinds"].items():
+        found.setdefault(kind, []).extend(each.strip() for each in members.split(","))
+    return {word: tuple(dict.fromkeys(names)) for word, names in found.items()}
 
 
 def _rules(text: str) -> tuple[dict[str, tuple[Rule, ...]], dict[str, dict[str, tuple[Rule, ...]]]]:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from fetch_pomdp.core.language.reading.form import Person
 from fetch_pomdp.core.language.reading.grammar import Grammar
-from fetch_pomdp.core.language.reading.tokens import Vocabulary, nearest
+from fetch_pomdp.core.language.reading.tokens import ID, Vocabulary
 from fetch_pomdp.core.scene import Scene
 
 Mask = npt.NDArray[np.bool_]
@@ -31,6 +31,7 @@ class Table:
     points: Array  # (n, 2), m, horizontal
     people: Array  # (2, 2), m
     vocabularies: tuple[frozenset[str], ...]
+    ids: tuple[str, ...]
     vocabulary: Vocabulary = field(init=False)
     distances: Array = field(init=False)  # (n, n), in distances of neighbours
     near: Array = field(init=False)  # (n, n), from each item to a landmark; of a landmark far from all, in its distance
@@ -55,7 +56,7 @@ class Table:
         right = np.stack([away[:, 1], -away[:, 0]], axis=1)
         centred = (points - middle) / spread
         for name, value in (
-            ("vocabulary", Vocabulary.of(self.vocabularies)),
+            ("vocabulary", Vocabulary.of(self.vocabularies, self.ids)),
             ("distances", gaps / spacing),
             ("near", gaps / np.maximum(nearby, spacing)[None, :]),
             ("spacing", spacing),
@@ -81,7 +82,8 @@ class Table:
             towards = points.mean(axis=0) - head
             length = float(np.sqrt((towards**2).sum()))
             robot = head + towards * (1.0 + (length + FARTHER) / max(length, 1e-9))
-        return cls(points, np.stack([head, robot]), tuple(frozenset(item.vocabulary) for item in scene.items))
+        vocabularies = tuple(frozenset(item.vocabulary) for item in scene.items)
+        return cls(points, np.stack([head, robot]), vocabularies, tuple(item.id for item in scene.items))
 
     @property
     def size(self) -> int:
@@ -96,6 +98,8 @@ class Table:
         return found
 
     def _called(self, word: str, grammar: Grammar) -> Array:
+        if word.startswith(ID):
+            return np.array([float(word == ID + id) for id in self.ids])
         own = self._having(word)
         if own.any():
             return own
@@ -103,10 +107,7 @@ class Table:
             own = np.maximum(own, self._having(other))
         if own.any():
             return own
-        if word in grammar.colours:
-            return self._coloured(word, grammar)
-        spelt = nearest(word, self.vocabulary.named)
-        return own if spelt is None else self._having(spelt)
+        return self._coloured(word, grammar) if word in grammar.colours else own
 
     def _having(self, word: str) -> Array:
         return np.array([float(word in words) for words in self.vocabularies])

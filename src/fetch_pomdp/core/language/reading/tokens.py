@@ -7,7 +7,7 @@ that costs confidence, and is reported.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fetch_pomdp.core.language.reading.chart import Token
@@ -16,9 +16,11 @@ from fetch_pomdp.core.language.reading.grammar import BREAKS, LONGEST, Grammar
 MOST_WORDS = 120  # of an utterance; the rest is not read
 MOST_IN_CLAUSE = 26  # words; a longer clause is cut
 STOP = "."
+ID = "#"  # before an id that is used as a word
 UNKNOWN = 1.0  # cost of a word that nobody knows
 _TEXT = re.compile(r"[^\W_]+(?:['’-][^\W_]+)*|[.;!?]")
 _HYPHEN = re.compile(r"[-’']")
+_LETTER = re.compile(r"[^\W\d_]")
 # The cost of leaving out a word, by what it might have been: little for those that only join others.
 SKIPPED = {
     "to": 0.15, "of": 0.15, "in": 0.15, "from": 0.3, "and": 0.1, "dir": 0.2, "sidenoun": 0.3, "table": 0.2, "it": 0.4,
@@ -50,21 +52,31 @@ class Clause:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Vocabulary:
-    """The words of a table's items, and those that stand for one of them.
+    """The words of a table's items.
 
-    named: the words that some of the items have; general: those that every item has, which tell nothing.
+    named: the words that some of the items have; general: those that every item has, which tell nothing; ids: the names
+    of items as they stand on a screen, as words.
     """
 
     named: frozenset[str]
     general: frozenset[str]
+    ids: Mapping[tuple[str, ...], str]
 
     @classmethod
-    def of(cls, vocabularies: Sequence[Iterable[str]]) -> Vocabulary:
-        """Return that of items with these vocabularies."""
+    def of(cls, vocabularies: Sequence[Iterable[str]], ids: Iterable[str] = ()) -> Vocabulary:
+        """Return that of items with these vocabularies and ids; an id without a letter is none that is said."""
         sets = [frozenset(words) for words in vocabularies]
-        everything = frozenset().union(*sets)
+        everything = frozenset[str]().union(*sets)
         general = sets[0].intersection(*sets) if len(sets) > 1 else frozenset[str]()
-        return cls(everything - general, general)
+        known = {tuple(_HYPHEN.sub(" ", id.lower().replace("_", " ")).split()): id for id in ids if _LETTER.search(id)}
+        return cls(everything - general, general, {words: id for words, id in known.items() if len(words) > 1})
+
+    def has(self, word: str, grammar: Grammar) -> bool:
+        """Return whether some of the items may be called so: as their word, or one that stands for it."""
+        mine = self.named | self.general
+        if word in mine or not mine.isdisjoint(grammar.synonyms.get(word, ())):
+            return True
+        return word in grammar.colours and not mine.isdisjoint(grammar.colours)
 
 
 def clauses(words: Sequence[str], vocabulary: Vocabulary, grammar: Grammar) -> list[Clause]:
@@ -185,12 +197,16 @@ def _leaves_at(words: Sequence[str], place: int, vocabulary: Vocabulary, grammar
             ):
                 yield place, place + size, leaf.category, leaf.value
     word = words[place]
-    if word in vocabulary.named or word in grammar.synonyms or word in grammar.colours:
-        yield place, place + 1, "w", word
-    elif word in vocabulary.general and (word,) not in grammar.lexicon:
+    if word in vocabulary.general and (word,) not in grammar.lexicon:
         yield place, place + 1, "n", word
-    if place + 1 < len(words) and (pair := f"{word} {words[place + 1]}") in grammar.synonyms:
-        yield place, place + 2, "w", pair
+    elif word not in vocabulary.general and vocabulary.has(word, grammar):
+        yield place, place + 1, "w", word
+    for size in range(2, min(LONGEST, len(words) - place) + 1):
+        phrase = tuple(words[place : place + size])
+        if phrase in vocabulary.ids:
+            yield place, place + size, "w", ID + vocabulary.ids[phrase]
+        elif vocabulary.has(" ".join(phrase), grammar):
+            yield place, place + size, "w", " ".join(phrase)
 
 
 def _owned(word: str, vocabulary: Vocabulary) -> bool:
@@ -200,11 +216,13 @@ def _owned(word: str, vocabulary: Vocabulary) -> bool:
 def _resolved(word: str, vocabulary: Vocabulary, grammar: Grammar) -> str:
     """Return the word that is meant: itself where it is known, else the known one that is spelt most like it."""
     mine = vocabulary.named | vocabulary.general
-    if word in mine or word in grammar.known or word in grammar.synonyms or word in grammar.colours:
+    if word in mine or word in grammar.known or vocabulary.has(word, grammar):
         return word
     for stem in uninflected(word, grammar):
-        if stem in mine or stem in grammar.synonyms or stem in grammar.colours:
+        if vocabulary.has(stem, grammar):
             return stem
+    if word in grammar.synonyms or word in grammar.colours:
+        return word  # a word that is known, and that no item may be called
     return nearest(word, mine) or nearest(word, grammar.known - grammar.noise) or word
 
 
