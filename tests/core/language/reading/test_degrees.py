@@ -54,7 +54,7 @@ def test_toward_is_surest_straight_ahead_and_nothing_at_itself() -> None:
     points = np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0]])
     offsets = points[:, None] - points[None]
     distances = np.linalg.norm(offsets, axis=2)
-    found = degrees.toward(offsets, distances, np.array([1.0, 0.0]), 2.0, 1.0)[:, 0]
+    found = degrees.toward(offsets, distances, np.array([[1.0, 0.0]]), 2.0, 1.0)[:, 0]
     assert found == pytest.approx([0.0, 1.0, math.exp(-4), math.exp(-2)])
 
 

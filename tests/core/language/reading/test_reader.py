@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -112,6 +114,20 @@ def test_the_place_of_the_robot_changes_its_left() -> None:
     across = scene(("cup", -0.3, 0.8), ("cup", 0.3, 0.8), robot=(0.0, 1.8, 1.2))
     assert meant("the cup on your left", beside) == 0
     assert meant("the cup on your left", across) == 1
+
+
+def test_an_item_with_a_front_has_a_front_of_its_own() -> None:
+    def table(facing: tuple[float, float] | None) -> Scene:
+        plain = scene(("car", 0.0, 0.8), ("cup", 0.0, 0.5), ("cup", 0.0, 1.1), ("cup", 0.3, 0.8))
+        items = (dataclasses.replace(plain.items[0], facing=facing), *plain.items[1:])
+        return dataclasses.replace(plain, items=items)
+
+    plain, left = (
+        chances("the cup in front of the car", table(None)),
+        chances("the cup in front of the car", table((1, 0))),
+    )
+    assert left[3] > plain[3] + 0.1
+    assert meant("the cup behind the car", table((-2.0, 0.0))) == 3
 
 
 def test_unknown_words_are_reported_and_cost_confidence() -> None:

@@ -66,10 +66,11 @@ def middle(points: Vector, members: Array) -> Array:
 def toward(offsets: Array, near: Array, axis: Array, turn: Array, reach: Array) -> Array:
     """Return how far each item is in a direction from each landmark (..., n, n), from 0 to 1.
 
-    offsets: (n, n, 2), from landmark to item. near: (n, n), their distances. axis: (..., 2), unit direction.
+    offsets: (n, n, 2), from landmark to item. near: (n, n), their distances. axis: (..., n or 1, 2), unit
+    direction, of each landmark or of all.
     """
     lengths = np.sqrt((offsets**2).sum(axis=-1))
-    along = (offsets * axis[..., None, None, :]).sum(axis=-1) / np.maximum(lengths, 1e-9)
+    along = (offsets * axis[..., None, :, :]).sum(axis=-1) / np.maximum(lengths, 1e-9)
     turn, reach = np.expand_dims(np.asarray(turn), -1), np.expand_dims(np.asarray(reach), -1)
     degree = np.exp(turn * (along - 1.0) - np.maximum(near - 1.0, 0.0) / (2.0 * reach))
     return degree * (1.0 - np.eye(near.shape[0]))

@@ -53,6 +53,8 @@ WAYS = {
     "left of": ("left",), "right of": ("right",), "above": ("top",), "below": ("bottom",), "behind": ("back",),
     "in front of": ("front",),
 }  # fmt: skip
+# Of a landmark with a front of its own: how far ahead of it, and how far to its left.
+FACING = {"in front of": (1.0, 0.0), "behind": (-1.0, 0.0), "left of": (0.0, 1.0), "right of": (0.0, -1.0)}
 REACHES = {"next to": "near_reach", "touching": "touch_reach", "near": "about_reach", "among": "about_reach"}
 RANKING = (Superlative, Middle, Alone, Crowded)
 
@@ -217,12 +219,8 @@ class Denotation:
         if side in LATERAL:
             return LATERAL[side] * table.right[WIDE if pick is None else pick]
         if side in UPRIGHT:
-            return UPRIGHT[side] * table.away[self._map if pick is None else pick]
+            return UPRIGHT[side] * table.away[WIDE if pick is None else pick]
         return UPON[side] * table.away[DEEP if pick is None else pick]
-
-    @property
-    def _map(self) -> Array:
-        return WIDE
 
     def _side(self, side: Side) -> Array:
         """Return how far each item is on a side, of all items: softly beyond a border, and more the farther."""
@@ -371,35 +369,42 @@ class Denotation:
             return self._relation(one, depth) * self._relation(other, depth)
         where = self._landmark(part.landmark, depth)
         if part.name == "away from":
-            return 1.0 - degrees.related(where, self._holds("near", direct=False))
-        return degrees.related(where, self._holds(part.name, direct=part.direct))
+            return 1.0 - degrees.related(where, self._holds(dataclasses.replace(part, name="near")))
+        return degrees.related(where, self._holds(part))
 
-    def _holds(self, name: str, *, direct: bool) -> Array:
-        key = ("relation", name, direct)
+    def _holds(self, part: Relation) -> Array:
+        key = ("relation", part.name, part.viewer, part.direct)
         if key not in self._kept:
-            self._kept[key] = self._relations(name, direct)
+            self._kept[key] = self._relations(part)
         return self._kept[key]
 
-    def _relations(self, name: str, direct: bool) -> Array:
+    def _relations(self, part: Relation) -> Array:
         """Return how far a relation holds of each item and each landmark, (variants, views, n, n)."""
-        w, table = self.w, self.table
+        w, table, name, direct = self.w, self.table, part.name, part.direct
         if name in REACHES:
             return degrees.beside(table.near, getattr(w, REACHES[name]) * (w.direct_reach if direct else 1.0))
         ways = WAYS.get(name) or tuple(each for each in name.split() if each in LATERAL | UPRIGHT | UPON)
-        axis = sum((self._axis(way) for way in ways), start=np.zeros((len(VIEWS), 2)))
+        axis = sum((self._axis(way, part.viewer) for way in ways), start=np.zeros((len(VIEWS), 2)))
         axis = axis / np.maximum(np.sqrt((axis**2).sum(axis=-1, keepdims=True)), 1e-9)
         offsets = table.points[:, None] - table.points[None]
         turn = w.way_turn * (w.direct_turn if direct else 1.0)
         reach = w.way_reach * (w.direct_reach if direct else 1.0)
-        return degrees.toward(offsets, table.near, axis, turn, reach)
+        seen = degrees.toward(offsets, table.near, axis[..., None, :], turn, reach)
+        if part.viewer is not None or name not in FACING or not table.facing.any():
+            return seen
+        ahead, left = FACING[name]
+        facing = table.facing
+        own = ahead * facing + left * np.stack([-facing[:, 1], facing[:, 0]], axis=1)
+        return np.where(facing.any(axis=1), (seen + degrees.toward(offsets, table.near, own, turn, reach)) / 2.0, seen)
 
-    def _axis(self, way: str) -> Array:
+    def _axis(self, way: str, viewer: Person | None) -> Array:
         axes = self.table.axes
+        whose = None if viewer is None else self._people[viewer]
         if way in LATERAL:
-            return LATERAL[way] * axes[WIDE, 0]
+            return LATERAL[way] * axes[WIDE if whose is None else whose, 0]
         if way in UPRIGHT:
-            return UPRIGHT[way] * axes[self._map, 1]
-        return UPON[way] * axes[DEEP, 1]
+            return UPRIGHT[way] * axes[WIDE if whose is None else whose, 1]
+        return UPON[way] * axes[DEEP if whose is None else whose, 1]
 
     def _between(self, part: Between, depth: int) -> Array:
         w = self.w

@@ -27,6 +27,7 @@ from fetch_pomdp.core.language.reading.form import (
     Person,
     Relation,
     Same,
+    Seen,
     Select,
     Side,
     Superlative,
@@ -278,7 +279,7 @@ def _grounded_inside(part: Any, before: Before) -> Any:
 
 def settled(said: Description) -> Description:
     """Return a description whose ordinals, nears and fars have found what they count from, and so its landmarks'."""
-    said = _one_group(said)
+    said = _as_seen(_one_group(said))
     parts = [_settled_inside(_with_words(part, said)) for part in said.parts]
     ranks = [part.rank for part in parts if isinstance(part, Ordinal)]
     nears = [part for part in parts if isinstance(part, Near)]
@@ -286,15 +287,40 @@ def settled(said: Description) -> Description:
     rest: list[Form] = [part for part in parts if not isinstance(part, Ordinal | Near | Toward)]
     rank = ranks[0] if ranks else 1
     if nears:
-        whom: Any = next((each for each in towards), None)
-        rest.append(Superlative(whom, nears[0].far, rank))
-        if isinstance(whom, Side):
-            rest[-1] = Superlative(whom, False, rank)
+        whom = towards[0] if towards else None
+        far = nears[0].far and not isinstance(whom, Side)
+        rest.append(Superlative(whom, far, rank))
     elif ranks:
         rest = _ranked(rest, towards, rank)
     else:
         rest += [each for each in towards if isinstance(each, Side)]
-    return Description(tuple(dict.fromkeys(rest)))
+    return Description(tuple(dict.fromkeys(_within_group(rest))))
+
+
+def _within_group(parts: list[Form]) -> list[Form]:
+    """Take the side of a group for the utmost of its items: "the left one of the three"."""
+    grouped = any(
+        isinstance(each, Within) and isinstance(each.group, Description) and each.group.plural for each in parts
+    )
+    if not grouped or any(isinstance(each, Superlative | Middle) for each in parts):
+        return parts
+    return [dataclasses.replace(each, extreme=True) if isinstance(each, Side) else each for each in parts]
+
+
+def _as_seen(said: Description) -> Description:
+    """Give sides and directions that are nobody's to whom the description names as seeing them."""
+    viewer = next((part.viewer for part in said.parts if isinstance(part, Seen)), None)
+    if viewer is None:
+        return said
+
+    def seen(form: Any) -> Any:
+        form = rebuilt(form, seen)
+        own = isinstance(form, Side | Relation) and form.viewer is None
+        return dataclasses.replace(form, viewer=viewer) if own else form
+
+    parts = tuple(part for part in said.parts if not isinstance(part, Seen))
+    found = seen(Description(parts))
+    return Description((*parts, Seen(viewer))) if found.parts == parts else found
 
 
 def _one_group(said: Description) -> Description:
@@ -333,8 +359,9 @@ def _ranked(rest: list[Form], towards: Sequence[Person | Side], rank: int) -> li
         if isinstance(part, Superlative) and part.rank == 1:
             return [*rest[:index], dataclasses.replace(part, rank=rank), *rest[index + 1 :]]
     for index, part in enumerate(rest):
-        if isinstance(part, Side):
-            return [*rest[:index], Superlative(part, False, rank), *rest[index + 1 :]]
+        if isinstance(part, Side):  # "the last one on the left" is the utmost, "the last from the left" the other end
+            ranked = dataclasses.replace(part, extreme=True) if rank == -1 else Superlative(part, False, rank)
+            return [*rest[:index], ranked, *rest[index + 1 :]]
     for index, part in enumerate(rest):
         if isinstance(part, Relation) and isinstance(part.landmark, Person):
             return [*rest[:index], Superlative(part.landmark, False, rank), *rest[index + 1 :]]

@@ -32,6 +32,7 @@ class Table:
     people: Array  # (2, 2), m
     vocabularies: tuple[frozenset[str], ...]
     ids: tuple[str, ...]
+    facing: Array  # (n, 2), unit direction of each item's front; 0 where it has none
     vocabulary: Vocabulary = field(init=False)
     distances: Array = field(init=False)  # (n, n), in distances of neighbours
     near: Array = field(init=False)  # (n, n), from each item to a landmark; of a landmark far from all, in its distance
@@ -83,7 +84,9 @@ class Table:
             length = float(np.sqrt((towards**2).sum()))
             robot = head + towards * (1.0 + (length + FARTHER) / max(length, 1e-9))
         vocabularies = tuple(frozenset(item.vocabulary) for item in scene.items)
-        return cls(points, np.stack([head, robot]), vocabularies, tuple(item.id for item in scene.items))
+        facing = np.array([item.facing or (0.0, 0.0) for item in scene.items])
+        facing /= np.maximum(np.sqrt((facing**2).sum(axis=1, keepdims=True)), 1e-9)
+        return cls(points, np.stack([head, robot]), vocabularies, tuple(item.id for item in scene.items), facing)
 
     @property
     def size(self) -> int:

@@ -97,7 +97,7 @@ def clauses(words: Sequence[str], vocabulary: Vocabulary, grammar: Grammar) -> l
             place += size
             begin = place
             continue
-        place += 1
+        place += size
     return [each for each in found if each.words or each.kind]
 
 
@@ -138,7 +138,7 @@ def _break_at(words: Sequence[str], place: int, grammar: Grammar, vocabulary: Vo
             for leaf in leaves:
                 if leaf.category in BREAKS:
                     return size, leaf.category
-            return 1, ""
+            return size, ""
     return 1, ""
 
 
