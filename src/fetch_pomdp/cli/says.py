@@ -1,8 +1,9 @@
-"""The command explain: what the robot makes of what somebody says about a table."""
+"""The commands explain and fit-reader: what the robot makes of what is said about a table, and how it learns to."""
 
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -18,21 +19,38 @@ from fetch_pomdp.core.language.reading.grammar import LANGUAGES
 from fetch_pomdp.core.language.reading.reader import Context, Heard, TableReader
 from fetch_pomdp.core.language.reading.telling import told
 from fetch_pomdp.core.language.reading.tokens import words_of
+from fetch_pomdp.core.language.reading.weights import Weights, weights_of
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
+from fetch_pomdp.study.requests.corpus import load_corpus
+from fetch_pomdp.study.requests.fit import Learner
+from fetch_pomdp.study.requests.weights_file import write_weights
 
 Says = Annotated[list[str], typer.Option("--says", metavar="TEXT", help="What is said; repeatable, in order.")]
 Language = Annotated[str, typer.Option(help=f"One of {', '.join(LANGUAGES)}.")]
 
 
-def explain(scene: SceneName, says: Says, language: Language = "english", json_lines: Json = False) -> None:
+WeightsFile = Annotated[
+    Path | None,
+    typer.Option("--weights", metavar="F.toml", help="Weights in place of ours, of fit-reader."),
+]
+
+
+def explain(
+    scene: SceneName,
+    says: Says,
+    language: Language = "english",
+    weights: WeightsFile = None,
+    json_lines: Json = False,
+) -> None:
     """Print what is understood of a request: its readings, and how likely it means each item.
 
     With --json, or into a file or pipe, one JSON object for each --says.
     """
     if language not in LANGUAGES:
         raise InputError(f"found {language!r}, expected one of {', '.join(LANGUAGES)}", field="language")
-    table, reader, context = Scene.load(scene), TableReader(language), Context()
+    learnt = None if weights is None else Weights.of(weights_of(weights))
+    table, reader, context = Scene.load(scene), TableReader(language, learnt), Context()
     for text in says:
         heard = reader.read(words_of(text), table, context)
         context = heard.context
@@ -41,6 +59,22 @@ def explain(scene: SceneName, says: Says, language: Language = "english", json_l
             print(json.dumps(_as_json(heard, table, chances), ensure_ascii=False))
         else:
             _show(heard, table, chances)
+
+
+def fit_reader(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A corpus: tables.json and requests.csv.")],
+    out: Annotated[Path, typer.Option(metavar="F.toml", help="Where the weights go.")],
+    source: Annotated[str, typer.Option(help="Where the requests come from, for the file.")] = "a corpus of requests",
+    steps: Annotated[int, typer.Option(min=1, help="Steps of the fit.")] = 14,
+) -> None:
+    """Learn the reader's weights from requests whose target is known (docs/reading.md); some minutes.
+
+    Needs pip install "fetch-pomdp[study]". How good they are on tables that they were not learnt from:
+    benchmarks/requests.py.
+    """
+    corpus = load_corpus(folder)
+    theta = Learner(corpus).fit(list(corpus.scenes), steps=steps)
+    write_weights(out, theta, corpus, source)
 
 
 def _as_json(heard: Heard, scene: Scene, chances: Vector) -> dict[str, Any]:

@@ -42,6 +42,10 @@ class Context:
     views: tuple[float, ...] | None = None
     before: Before = NOTHING_BEFORE
 
+    def after_question(self, asked: int | None) -> Context:
+        """Return the context after a question about an item; None if none was asked yet."""
+        return dataclasses.replace(self, before=dataclasses.replace(self.before, asked=asked))
+
 
 @dataclass(frozen=True, slots=True)
 class Reading:

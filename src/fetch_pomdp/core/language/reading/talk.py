@@ -55,8 +55,7 @@ class Talk:
 
     def ask(self, item: int) -> Talk:
         """Return the talk after the robot pointed at an item and asked "this one?"."""
-        before = dataclasses.replace(self.context.before, asked=item)
-        return dataclasses.replace(self, asked=item, context=dataclasses.replace(self.context, before=before))
+        return dataclasses.replace(self, asked=item, context=self.context.after_question(item))
 
     def say(self, text: str) -> Talk:
         """Return the talk after somebody said something."""
