@@ -14,11 +14,12 @@ import numpy as np
 from fetch_pomdp.core.language.reading.degrees import Array, sigmoid
 from fetch_pomdp.core.language.reading.denotation import DEEP, SWAPPED, WIDE, Denotation
 from fetch_pomdp.core.language.reading.discourse import Candidate
-from fetch_pomdp.core.language.reading.form import Description, Form, Person, Side, inner
+from fetch_pomdp.core.language.reading.form import Description, Form, Person, Select, Side, inner
 from fetch_pomdp.core.language.reading.table import VIEWS
 from fetch_pomdp.core.language.reading.weights import Weights
 
 LEAST = 1e-12
+MOST_ADDITIONS = 2  # to words, that make a description longer
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,14 +57,12 @@ def understood(
     knows, and that were left out. ease: (..., n), how easily each item is told apart (`speaker`).
     """
     w, n = weights.values, denotation.table.size
-    avoided = np.exp(-w_(w.speaker) * ease)[..., None, :]
     logs, fits = [], []
     for each in found:
         degree = np.maximum(denotation.of(each.meaning), LEAST) + np.zeros((1, len(VIEWS), n))
         peak = degree.max(axis=-1)
-        if each.meaning.parts:  # who says nothing of an item has not left out what tells it apart
-            degree = degree * avoided
-        logs.append(np.log(degree / degree.sum(axis=-1, keepdims=True)))
+        literal = np.log(degree / degree.sum(axis=-1, keepdims=True))
+        logs.append(spoken(literal, each.meaning, ease, weights))
         named = _named(each.meaning, weights)
         prior = np.asarray(views) + named
         fits.append(w_(w.fits) * np.log(peak) + prior - w_(w.cost) * (each.cost + w_(w.nested) * each.nested))
@@ -76,6 +75,21 @@ def understood(
     sharp = sharp / sharp.sum(axis=-1, keepdims=True)
     lost = sigmoid(w_(w.lost) + w_(w.lost_unknown) * confusion[0] + w_(w.lost_skipped) * confusion[1])
     return Understood((1.0 - lost) * sharp + lost / n, weight.sum(axis=-1), weight.sum(axis=-2), lost)
+
+
+def spoken(literal: Array, meaning: Description, ease: Array, weights: Weights) -> Array:
+    """Return how likely each item is for who hears this, (..., n), log: also by what a speaker would have said of it.
+
+    literal: (..., views, n), the logarithm of the chance of each item by what the words mean. ease: (..., n). Who says
+    nothing of an item has not left out what tells it apart.
+    """
+    if not meaning.parts:
+        return literal
+    w = weights.values
+    additions = sum(not isinstance(part, Select) for part in meaning.parts)
+    said = w.speaker_sharpness * literal - w.speaker_length * min(additions, MOST_ADDITIONS)
+    log = literal + w.speaker * (said - np.logaddexp(said, ease[..., None, :]))
+    return log - np.logaddexp.reduce(log, axis=-1, keepdims=True)
 
 
 def w_(value: Any) -> Any:
