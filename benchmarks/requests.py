@@ -16,9 +16,11 @@ import argparse
 import dataclasses
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.random import Generator
 
 from fetch_pomdp.core.action import Pick, Point
 from fetch_pomdp.core.belief import Belief
@@ -27,6 +29,7 @@ from fetch_pomdp.core.language.reading.reader import Context, TableReader
 from fetch_pomdp.core.language.reading.tokens import words_of
 from fetch_pomdp.core.language.reading.weights import shipped, theta_of
 from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.base import Decision, Planner
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
@@ -36,6 +39,7 @@ from fetch_pomdp.study.requests.scores import Score, groups, score
 
 P_TRUTH = 0.97  # of the person's answers
 MOST_STEPS = 30
+UNTIL = (0.5, 0.6, 0.7, 0.8, 0.85, 0.9)
 
 
 def left_out(corpus: Corpus, steps: int) -> list[Vector]:
@@ -72,30 +76,56 @@ def show(corpus: Corpus, chances: Sequence[Vector]) -> Score:
     return whole
 
 
-def play(corpus: Corpus, chances: Sequence[Vector], seed: int) -> None:
-    """Let the robot ask a person who has said a request and answers truly with P_TRUTH; print how it ends."""
-    right, questions = [], []
-    planner = FittedValue()
-    problems: dict[int, Problem] = {}
-    for table, scene in corpus.scenes.items():
-        model = scene.model.with_changes({"p_truth": P_TRUTH})
-        problems[table] = Problem(dataclasses.replace(scene, model=model))
-        planner.prepare(problems[table])
-    for index, each in enumerate(corpus.requests):
-        rng = np.random.default_rng((seed, index))
-        problem, belief, asked, count = problems[each.table], Belief(chances[index]), None, 0
-        for _ in range(MOST_STEPS):
-            action = planner.decide(problem, belief, asked, rng=rng).action
-            if isinstance(action, Pick):
-                break
-            if isinstance(action, Point):
-                asked, count = action.item, count + 1
-                true = rng.random() < P_TRUTH
-                said = "yes" if (asked == each.target) == true else "no"
-                belief = belief.updated(Observation((said,)), asked, problem)
-        right.append(isinstance(action, Pick) and action.item == each.target)
-        questions.append(count)
-    print(f"\nwith questions: {np.mean(right):.3f} right with {np.mean(questions):.2f} questions on average")
+def play(corpus: Corpus, chances: Sequence[Vector], planners: Sequence[tuple[str, Planner]], seed: int) -> None:
+    """Let robots ask a person who has said a request and answers truly with P_TRUTH; print how it ends."""
+    problems = {
+        table: Problem(dataclasses.replace(scene, model=scene.model.with_changes({"p_truth": P_TRUTH})))
+        for table, scene in corpus.scenes.items()
+    }
+    print(f"\n{'with questions':24}{'right':>8}{'questions':>11}{'return':>8}")
+    for name, planner in planners:
+        ends = [
+            asked_out(planner, problems[each.table], Belief(chances[index]), (each.target, (seed, index)))
+            for index, each in enumerate(corpus.requests)
+        ]
+        right = np.array([end[0] for end in ends], dtype=float)
+        questions = np.array([end[1] for end in ends], dtype=float)
+        paid = problems[corpus.requests[0].table].rewards
+        value = paid.pick_correct * right + paid.pick_wrong * (1.0 - right) + paid.point * questions
+        print(f"{name:24}{right.mean():8.3f}{questions.mean():11.2f}{value.mean():8.2f}", flush=True)
+
+
+def asked_out(
+    planner: Planner, problem: Problem, belief: Belief, person: tuple[int, tuple[int, int]]
+) -> tuple[bool, int]:
+    """Return whether the right item is picked in the end, and after how many questions. person: target and seed."""
+    target, seed = person
+    rng, asked, count = np.random.default_rng(seed), None, 0
+    for _ in range(MOST_STEPS):
+        action = planner.decide(problem, belief, asked, rng=rng).action
+        if isinstance(action, Pick):
+            return action.item == target, count
+        if isinstance(action, Point):
+            asked, count = action.item, count + 1
+            true = rng.random() < P_TRUTH
+            belief = belief.updated(Observation(("yes" if (asked == target) == true else "no",)), asked, problem)
+    return False, count
+
+
+@dataclass(frozen=True, slots=True)
+class AskUntil:
+    """Asks about the likeliest item until one has a chance, and picks it then."""
+
+    chance: float
+
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
+        """Decide by the likeliest item alone."""
+        chances = belief.probabilities
+        best = int(chances.argmax())
+        action = Pick(best) if chances[best] >= self.chance else Point(best)
+        return Decision(action, wait=0.0, point=0 * chances, pick=0 * chances)
 
 
 def speed(corpus: Corpus) -> None:
@@ -136,7 +166,8 @@ def main() -> None:
     chances = by_shipped(corpus) if given.weights else left_out(corpus, given.steps)
     show(corpus, chances)
     if given.questions:
-        play(corpus, chances, given.seed)
+        robots: list[tuple[str, Planner]] = [(f"asks until {chance}", AskUntil(chance)) for chance in UNTIL]
+        play(corpus, chances, [*robots, ("the default planner", FittedValue())], given.seed)
 
 
 if __name__ == "__main__":
