@@ -236,9 +236,10 @@ def uninflected(word: str, grammar: Grammar) -> Iterable[str]:
 def nearest(word: str, among: Iterable[str]) -> str | None:
     """Return the word that differs least in its letters, by one of four to six or two of more; None if none does."""
     most = 0 if len(word) < 4 else 1 if len(word) < 7 else 2
-    best, found = most + 1, None
+    best, found, letters = most + 1, None, set(word)
     for other in sorted(among) if most else ():
-        if abs(len(other) - len(word)) <= most and len(other) >= 4:
+        # Each letter that the other has not is a difference.
+        if abs(len(other) - len(word)) <= most and len(other) >= 4 and len(letters.difference(other)) <= most:
             distance = _differing(word, other, best)
             if distance < best:
                 best, found = distance, other
