@@ -233,6 +233,13 @@ def _some_of(noun: Description, _of: str, group: Landmark) -> Description | None
     return noun.plus(Within(group)) if _several(group) else None
 
 
+def _negation_of(_not: str, noun: Landmark) -> Parts | None:
+    """As in "not the bowl"; what is not in "not the bowl and not the pan" are two."""
+    if isinstance(noun, Description) and any(isinstance(part, Not) for part in noun.parts):
+        return None
+    return (Not(noun),)
+
+
 def _same_again(_and: str, noun: Landmark) -> Parts | None:
     """As in "the red one and also the closest one": more of the same item."""
     if not isinstance(noun, Description) or _words(noun) or noun.plural:
@@ -297,7 +304,8 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "clusters_of": _pairs_of,
     "middle_in": _middle_in,
     "negation": lambda _, parts: (Not(parts[0] if len(parts) == 1 else Description(parts)),),
-    "negation_of": lambda _, noun: (Not(noun),),
+    "negation_of": _negation_of,
+    "joined": lambda first, _and, second: (*first, *second),
     "relation": lambda name: (name, False),
     "directly": lambda _, relation: (relation[0], True),
     "directly3": lambda _to, _directly, relation: (relation[0], True),

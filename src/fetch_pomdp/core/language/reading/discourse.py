@@ -153,6 +153,9 @@ class _Discourse:
         return whole.plus(*loose)
 
     def _added(self, whole: Description, said: Description) -> Description:
+        """Return what two descriptions side by side say of the same; the second may be one of the first."""
+        if whole.plural and not said.plural and not words_of(said) and said.parts:
+            return said.plus(Within(whole))
         if words_of(said) <= words_of(whole) or not words_of(whole):
             return whole.plus(*(part for part in said.parts if part not in whole.parts))
         self.ignored += IGNORED
