@@ -7,9 +7,9 @@ immutable, compares by value and prints as a person would check it ("red, left o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 
 class Person(Enum):
@@ -239,6 +239,13 @@ class Description:
     """Items of which all parts hold."""
 
     parts: tuple[Form, ...] = ()
+    _hash: int = field(init=False, repr=False, compare=False, default=0)  # computed once: meanings are looked up often
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_hash", hash(self.parts))
+
+    def __hash__(self) -> int:
+        return self._hash
 
     def __str__(self) -> str:
         return ", ".join(map(str, self.parts)) or "something"
@@ -259,27 +266,33 @@ Form = (
 )  # fmt: skip
 
 Made = TypeVar("Made", bound=Form)
+_FORMS = get_args(Form)
 
 
 def inner(form: Form) -> Iterator[Form]:
     """Yield the forms that a form is directly made of."""
-    for field in fields(form):
-        value = getattr(form, field.name)
+    for name in _names(form):
+        value = getattr(form, name)
         for each in value if isinstance(value, tuple) else (value,):
-            if isinstance(each, Form):
+            if isinstance(each, _FORMS):
                 yield each
 
 
 def rebuilt(form: Made, change: Callable[[Any], Any]) -> Made:
     """Return a form with each form that it is directly made of changed."""
     new: dict[str, Any] = {}
-    for field in fields(form):
-        value = getattr(form, field.name)
-        if isinstance(value, Form):
-            new[field.name] = change(value)
-        elif isinstance(value, tuple) and any(isinstance(each, Form) for each in value):
-            new[field.name] = tuple(change(each) for each in value)
+    for name in _names(form):
+        value = getattr(form, name)
+        if isinstance(value, _FORMS):
+            new[name] = change(value)
+        elif isinstance(value, tuple) and any(isinstance(each, _FORMS) for each in value):
+            new[name] = tuple(change(each) for each in value)
     return replace(form, **new) if new else form
+
+
+def _names(form: Form) -> list[str]:
+    """Return the names of a form's fields that are given."""
+    return [name for name in form.__dataclass_fields__ if name != "_hash"]
 
 
 def _inside(form: Form | Person) -> str:
