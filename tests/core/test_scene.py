@@ -297,3 +297,22 @@ def test_changes_are_a_mapping(changes: Any) -> None:
     for whole in (Model(), Rewards()):
         with pytest.raises(ModelError, match="expected a table of named fields"):
             whole.with_changes(changes)
+
+
+def test_a_scene_may_say_where_the_robot_is_and_where_items_face() -> None:
+    item = {"id": "car", "position": [0.0, 1.0, 0.75], "vocabulary": ["car"], "facing": [0, -2]}
+    scene = Scene.from_mapping({"head": [0.0, 0.0, 1.6], "items": [item], "robot": [0.5, 2, 1.1]})
+    assert (scene.robot, scene.items[0].facing) == ((0.5, 2.0, 1.1), (0.0, -2.0))
+    assert Scene.from_mapping(scene.to_mapping()) == scene
+    assert "robot" not in Scene.load("ambiguous").to_mapping()
+
+
+@pytest.mark.parametrize("facing", [[0.0, 0.0], [1.0], "north", [1.0, 2.0, 3.0], [1.0, "x"]])
+def test_what_is_no_direction_is_refused(facing: Any) -> None:
+    with pytest.raises(SceneError, match="facing"):
+        Item(id="car", position=(0.0, 1.0, 0.75), vocabulary=("car",), facing=facing)
+
+
+def test_a_robot_is_somewhere() -> None:
+    with pytest.raises(SceneError, match="robot"):
+        dataclasses.replace(Scene.load("ambiguous"), robot=(0.0, 1.0))  # type: ignore[arg-type]

@@ -14,6 +14,7 @@ from fetch_pomdp.cli.logs import app as logs
 from fetch_pomdp.cli.offline import decide, filter_events, simulate
 from fetch_pomdp.cli.participants import app as participants
 from fetch_pomdp.cli.robocup import robocup
+from fetch_pomdp.cli.says import explain, fit_reader
 from fetch_pomdp.cli.serve import serve_page
 from fetch_pomdp.cli.study import app as study
 
@@ -28,6 +29,8 @@ app.command()(fetch)
 app.command("filter")(filter_events)
 app.command()(decide)
 app.command()(simulate)
+app.command()(explain)
+app.command("fit-reader")(fit_reader)
 app.command("export")(export_scene)
 app.command()(gap)
 app.command()(robocup)

@@ -23,11 +23,14 @@ from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
-from fetch_pomdp.core.language.meaning import Meaning
+from fetch_pomdp.core.language.meaning import STAND_INS, Meaning
+from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader
+from fetch_pomdp.core.language.reading.talk import divided
+from fetch_pomdp.core.language.reading.tokens import STOP, words_of
 from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.model import Model, Rewards
-from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.observation import Observation, Parts
 from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
@@ -40,7 +43,8 @@ class Agent:
     """Observes, keeps a belief and decides; everything else it leaves to its planner.
 
     scene: a Scene, the name of a built-in one, or the path of a TOML file. planner: FittedValue() unless given.
-    model, rewards: those of the scene unless given, as a whole or as a mapping of changes. The decision after k
+    model, rewards: those of the scene unless given, as a whole or as a mapping of changes. reader: what reads words
+    other than answers, such as `TableReader()`; unless given the paper's, word by word (Eq. 4, 5). The decision after k
     observations and actions depends on the seed, on k and on what happened, not on how often `decide` was called.
     """
 
@@ -53,12 +57,14 @@ class Agent:
         rewards: Rewards | Mapping[str, object] | None = None,
         seed: int = 0,
         prior: npt.ArrayLike | None = None,
+        reader: Reader | None = None,
     ) -> None:
         table = scene if isinstance(scene, Scene) else Scene.load(scene)
         self.problem = Problem(_changed(table, model, rewards))
         self.answers: Lexicon = lexicon(table.answers, self.problem.words)
         self.planner: Planner = FittedValue() if planner is None else _planner(planner)
         self.seed = checks.whole(seed, 0, 2**63 - 1, "seed", PlannerError)
+        self.reader = reader
         self._prior = Belief.uniform(self.problem.n_items) if prior is None else Belief(prior)
         if len(self._prior.log_probabilities) != self.problem.n_items:
             found = len(self._prior.log_probabilities)
@@ -69,6 +75,8 @@ class Agent:
     def begin(self) -> None:
         """Begin with a request: nothing of it was heard, seen or asked yet."""
         self._belief = self._prior
+        self.heard: Heard | None = None  # what the reader made of the last words
+        self._context = Context()
         self.asked: int | None = None  # i_r, as an index into the scene's items
         self.handed: int | None = None  # the item that was handed over last, if nothing was done since
         self.phase = 0  # where the talk stands (`turns`)
@@ -125,6 +133,8 @@ class Agent:
             missing = "head" if head is None else "wrist"
             raise ObservationError("found none, expected head and wrist, or neither", field=missing)
         ray = None if head is None or wrist is None else Ray(head, wrist)
+        if self.reader is not None:
+            return self.update(Observation(words_of(utterance or ""), ray))
         return self.update(Observation(self.answers.read(tokenize(utterance or ""), self.after).words, ray))
 
     def update(self, observation: Observation) -> Utterance:
@@ -135,17 +145,45 @@ class Agent:
         """
         if not isinstance(observation, Observation):
             raise ObservationError(f"found {shown(observation)}, expected Observation(...)", field="observation")
+        if self.reader is not None:
+            return self._read(observation, self.reader)
         utterance = unigram.split(observation.words, self.problem)
         if utterance.meaning is Meaning.CANCEL:
             self.begin()
         parts = observations.log_likelihoods(observation, self.asked, self.problem, self.chances)
+        self._take_in(observation, parts)
+        return utterance
+
+    def _read(self, observation: Observation, reader: Reader) -> Utterance:
+        """Take in an observation whose words a reader reads; a correction takes back what was said before."""
+        asked = self._evidence.unanswered
+        answer, content = divided(observation.words, self.answers, asked is not None)
+        if answer is Meaning.CANCEL:
+            self.begin()
+        heard = reader.read(content, self.scene, self._context.after_question(self.asked))
+        self._context = heard.context
+        response = () if answer is None or answer is Meaning.OBJECT else (STAND_INS[answer],)
+        known = tuple(word for word in content if word not in heard.unknown and word != STOP)
+        if heard.corrects:
+            self._evidence = self._evidence.without_talk()
+            self._belief = Belief.of_logs(self._evidence.prior + self._evidence.pointing)
+        words = heard.log_likelihood if known else unigram.base_log_likelihood((), self.problem)
+        answered = observations.log_likelihoods(
+            Observation(response, observation.ray), self.asked, self.problem, self.chances
+        )
+        parts = Parts(words, answered.answers, answered.pointing)
+        self.heard = heard if content else None
+        spoken = (self.problem.words[0],) if known else ()  # for whose turn it is, any word of the scene will do
+        self._take_in(Observation((*spoken, *response), observation.ray), parts)
+        return Utterance(known, response if answer in {Meaning.YES, Meaning.NO} else (), heard.unknown, answer)
+
+    def _take_in(self, observation: Observation, parts: Parts) -> None:
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
         self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase, asked=self.asked)
         self._acted = Wait()
         answered = observations.meant(observation, self.problem).answer != SILENT
         self._evidence = self._evidence.plus(parts, answered=answered)
         self._steps += 1
-        return utterance
 
     def decide(self, *, passes: int | None = None) -> Decision:
         """Return what the planner would do now, the value of every action, and why; nothing changes.

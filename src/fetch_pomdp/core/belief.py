@@ -44,6 +44,14 @@ class Belief:
         n_items = checks.whole(n_items, 1, MOST_ITEMS, "n_items", BeliefError)
         return cls(np.full(n_items, 1.0 / n_items))
 
+    @classmethod
+    def of_logs(cls, logs: Vector) -> Belief:
+        """Return the belief in proportion to the exponentials of logs, (n_items,)."""
+        belief = cls.__new__(cls)
+        belief._log = logs - np.logaddexp.reduce(logs)
+        belief._log.flags.writeable = False
+        return belief
+
     @property
     def log_probabilities(self) -> Vector:
         """Logarithms of the probabilities, (n_items,), read-only."""

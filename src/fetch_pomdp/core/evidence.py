@@ -62,6 +62,11 @@ class Evidence:
             None if answered else self.unanswered,
         )
 
+    def without_talk(self) -> Evidence:
+        """Return the evidence without what was said: somebody has taken it back."""
+        nothing = np.zeros_like(self.words)
+        return Evidence(self.prior, nothing, nothing.copy(), self.pointing)
+
     def asked(self, item: int) -> Evidence:
         """Return the evidence after a question about an item."""
         return Evidence(self.prior, self.words, self.answers, self.pointing, item)

@@ -25,15 +25,33 @@ class Item:
     id: str
     position: Point3  # m
     vocabulary: tuple[str, ...]  # the words that may refer to it, lower case
+    facing: tuple[float, float] | None = None  # horizontal direction of its front, if it has one
 
     def __post_init__(self) -> None:
         checks.text(self.id, "id", "a name that is not empty", SceneError)
         object.__setattr__(self, "position", checks.point(self.position, "position", SceneError))
+        if self.facing is not None:
+            object.__setattr__(self, "facing", _direction(self.facing))
         words = self.vocabulary
         if isinstance(words, str) or not isinstance(words, list | tuple) or not words:
             raise SceneError(f"found {checks.shown(words)}, expected a list of one word or more", field="vocabulary")
         checked = [_vocabulary_word(word, f"vocabulary[{index}]") for index, word in enumerate(words)]
         object.__setattr__(self, "vocabulary", tuple(dict.fromkeys(checked)))
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return the item as plain data, in the form of a scene file."""
+        plain = {"id": self.id, "position": list(self.position), "vocabulary": list(self.vocabulary)}
+        return plain if self.facing is None else plain | {"facing": list(self.facing)}
+
+
+def _direction(value: object) -> tuple[float, float]:
+    expected = "a horizontal direction: two numbers, not both 0"
+    if isinstance(value, str) or not isinstance(value, list | tuple) or len(value) != 2:
+        raise SceneError(f"found {checks.shown(value)}, expected {expected}", field="facing")
+    x, y = (checks.number(each, "facing", expected, SceneError) for each in value)
+    if x == y == 0.0:
+        raise SceneError(f"found {checks.shown(value)}, expected {expected}", field="facing")
+    return x, y
 
 
 def _vocabulary_word(value: object, path: str) -> str:
@@ -58,10 +76,13 @@ class Scene:
     model: Model = field(default_factory=Model)
     rewards: Rewards = field(default_factory=Rewards)
     answers: Answers = field(default_factory=Answers)  # what is understood as an answer here, beside what is everywhere
+    robot: Point3 | None = None  # m, where the robot looks from; None: from across the table
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "items", _items(self.items))
         object.__setattr__(self, "head", checks.point(self.head, "head", SceneError))
+        if self.robot is not None:
+            object.__setattr__(self, "robot", checks.point(self.robot, "robot", SceneError))
         for name, kind in (("model", Model), ("rewards", Rewards)):
             if not isinstance(getattr(self, name), kind):
                 found = f"found {checks.shown(getattr(self, name))}, expected {kind.__name__}(...)"
@@ -115,7 +136,7 @@ class Scene:
 
         model: what holds where the fields do not say; the paper's unless given.
         """
-        checks.known(data, ("head", "items", "model", "rewards", "answers"), "field", SceneError)
+        checks.known(data, ("head", "items", "model", "rewards", "answers", "robot"), "field", SceneError)
         checks.required(data, ("head", "items"), SceneError)
         if not isinstance(data["items"], list | tuple):
             found = checks.shown(data["items"])
@@ -130,15 +151,15 @@ class Scene:
             answers = Answers.from_mapping(checks.mapping(data.get("answers", {}), "", SceneError))
         except InputError as error:
             raise error.within(section) from None
-        return cls(items=items, head=data["head"], model=model, rewards=rewards, answers=answers)
+        robot = data.get("robot")
+        return cls(items=items, head=data["head"], model=model, rewards=rewards, answers=answers, robot=robot)
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the head, the items and the answers that it adds as plain data, in the form of a scene file."""
-        items = [
-            {"id": item.id, "position": list(item.position), "vocabulary": list(item.vocabulary)} for item in self.items
-        ]
+        items = [item.to_mapping() for item in self.items]
         answers = self.answers.to_mapping()
-        return {"head": list(self.head), "items": items} | ({"answers": answers} if answers else {})
+        robot = {} if self.robot is None else {"robot": list(self.robot)}
+        return {"head": list(self.head), "items": items} | robot | ({"answers": answers} if answers else {})
 
 
 def _items(given: object) -> tuple[Item, ...]:
@@ -161,7 +182,7 @@ def _exists(path: Path) -> bool:
 def _item(fields: object, path: str) -> Item:
     try:
         data = checks.mapping(fields, "", SceneError)
-        checks.known(data, ("id", "position", "vocabulary"), "field", SceneError)
+        checks.known(data, ("id", "position", "vocabulary", "facing"), "field", SceneError)
         checks.required(data, ("id", "position", "vocabulary"), SceneError)
         return Item(**data)
     except InputError as error:

@@ -105,7 +105,7 @@ def _scene(value: object) -> Scene:
         return Scene.load(value)
     try:
         data = checks.mapping(value, "", EventError)
-        checks.known(data, ("head", "items", "answers"), "field", SceneError)
+        checks.known(data, ("head", "items", "answers", "robot"), "field", SceneError)
         return Scene.from_mapping(data)
     except InputError as error:
         raise error.within("scene") from None

@@ -1,0 +1,174 @@
+"""How well what real people say about a table is read: each table by weights learnt from the others.
+
+    python benchmarks/requests.py DIR                        # each table left out in turn; about ten minutes
+    python benchmarks/requests.py DIR --weights shipped      # by the weights that come with the package
+    python benchmarks/requests.py DIR --questions            # and how many questions it takes, at the paper's prices
+    python benchmarks/requests.py DIR --speed                # milliseconds a sentence at 15 and 100 items
+
+DIR holds tables.json and requests.csv (`study.requests.corpus`). Printed: the share in which the likeliest item was
+meant, of all requests and of those that need somebody's view; the share of listeners who were right and of those who
+took what we take; logarithmic loss (nats), calibration error and the reliability diagram behind it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.random import Generator
+
+from fetch_pomdp.core.action import Pick, Point
+from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.language.reading.reader import Context, TableReader
+from fetch_pomdp.core.language.reading.tokens import words_of
+from fetch_pomdp.core.language.reading.weights import shipped, theta_of
+from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.planners.base import Decision, Planner
+from fetch_pomdp.core.planners.fitted.planner import FittedValue
+from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.scene import Item, Scene
+from fetch_pomdp.study.requests.corpus import Corpus, load_corpus
+from fetch_pomdp.study.requests.fit import Learner
+from fetch_pomdp.study.requests.scores import Score, groups, score
+
+P_TRUTH = 0.97  # of the person's answers
+MOST_STEPS = 30
+UNTIL = (0.5, 0.6, 0.7, 0.8, 0.88, 0.9)
+
+
+def left_out(corpus: Corpus, steps: int) -> list[Vector]:
+    """Return the chances of each request's items by weights learnt from all tables but its own."""
+    learner, found = Learner(corpus), dict[int, Vector]()
+    for table in corpus.scenes:
+        begun = time.perf_counter()
+        theta = learner.fit([other for other in corpus.scenes if other != table], steps=steps)
+        found |= learner.read(theta, [table])
+        print(f"table {table} left out, {time.perf_counter() - begun:.0f} s", flush=True)
+    return [found[index] for index in range(len(corpus.requests))]
+
+
+def by_shipped(corpus: Corpus) -> list[Vector]:
+    """Return the chances of each request's items by the weights that come with the package."""
+    found = Learner(corpus).read(theta_of(shipped()), list(corpus.scenes))
+    return [found[index] for index in range(len(corpus.requests))]
+
+
+def show(corpus: Corpus, chances: Sequence[Vector]) -> Score:
+    """Print the scores of all groups of requests, and the reliability diagram; return the score of all."""
+    print(f"{'':16}{'count':>6}{'right':>8}{'listeners':>11}{'took ours':>11}{'log loss':>10}{'ECE':>7}")
+    found_of: dict[str, Score] = {}
+    for name, belongs in groups(corpus.requests).items():
+        inside = [index for index, each in enumerate(corpus.requests) if belongs(each)]
+        found = score([corpus.requests[index] for index in inside], [chances[index] for index in inside])
+        print(f"{name:16}{found.count:6}{found.right:8.3f}{found.listeners:11.3f}{found.agreeing:11.3f}"
+              f"{found.log_loss:10.3f}{found.calibration_error:7.3f}")  # fmt: skip
+        found_of[name] = found
+    whole = found_of["all"]
+    print("\nlikeliest item   right   of")
+    for each in whole.bins:
+        print(f"{each.believed:14.3f}{each.right:8.3f}{each.count:5}  {'#' * round(40 * each.right)}")
+    return whole
+
+
+def play(corpus: Corpus, chances: Sequence[Vector], planners: Sequence[tuple[str, Planner]], seed: int) -> None:
+    """Let robots ask a person who has said a request and answers truly with P_TRUTH; print how it ends."""
+    problems = {
+        table: Problem(dataclasses.replace(scene, model=scene.model.with_changes({"p_truth": P_TRUTH})))
+        for table, scene in corpus.scenes.items()
+    }
+    print(f"\n{'with questions':24}{'right':>8}{'questions':>11}{'return':>8}")
+    for name, planner in planners:
+        ends = [
+            asked_out(planner, problems[each.table], Belief(chances[index]), (each.target, (seed, index)))
+            for index, each in enumerate(corpus.requests)
+        ]
+        right = np.array([end[0] for end in ends], dtype=float)
+        questions = np.array([end[1] for end in ends], dtype=float)
+        paid = problems[corpus.requests[0].table].rewards
+        value = paid.pick_correct * right + paid.pick_wrong * (1.0 - right) + paid.point * questions
+        print(f"{name:24}{right.mean():8.3f}{questions.mean():11.2f}{value.mean():8.2f}", flush=True)
+
+
+def asked_out(
+    planner: Planner, problem: Problem, belief: Belief, person: tuple[int, tuple[int, int]]
+) -> tuple[bool, int]:
+    """Return whether the right item is picked in the end, and after how many questions. person: target and seed."""
+    target, seed = person
+    rng, asked, count = np.random.default_rng(seed), None, 0
+    for _ in range(MOST_STEPS):
+        action = planner.decide(problem, belief, asked, rng=rng).action
+        if isinstance(action, Pick):
+            return action.item == target, count
+        if isinstance(action, Point):
+            asked, count = action.item, count + 1
+            true = rng.random() < P_TRUTH
+            belief = belief.updated(Observation(("yes" if (asked == target) == true else "no",)), asked, problem)
+    return False, count
+
+
+@dataclass(frozen=True, slots=True)
+class AskUntil:
+    """Asks about the likeliest item until one has a chance, and picks it then."""
+
+    chance: float
+
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
+        """Decide by the likeliest item alone."""
+        chances = belief.probabilities
+        best = int(chances.argmax())
+        action = Pick(best) if chances[best] >= self.chance else Point(best)
+        return Decision(action, wait=0.0, point=0 * chances, pick=0 * chances)
+
+
+def speed(corpus: Corpus) -> None:
+    """Print how long a sentence takes to read at 15 and at 100 items, in the processor's time."""
+    rng = np.random.default_rng(0)
+    places = np.stack([rng.uniform(-1.0, 1.0, 100), rng.uniform(0.5, 2.0, 100)], axis=1)
+    words = [item.vocabulary for scene in corpus.scenes.values() for item in scene.items]
+    items = tuple(
+        Item(id=str(index), position=(float(x), float(y), 0.75), vocabulary=words[index % len(words)])
+        for index, (x, y) in enumerate(places)
+    )
+    big = Scene(items=items, head=(0.0, 0.0, 1.25), robot=(0.0, 2.5, 1.25))
+    reader = TableReader()
+    for name, scene in (("15 items", None), ("100 items", big)):
+        taken = []
+        for each in corpus.requests:
+            begun = time.process_time()
+            reader.read(words_of(each.text), scene or corpus.scenes[each.table], Context())
+            taken.append(1e3 * (time.process_time() - begun))
+        middle, late, most = np.quantile(taken, [0.5, 0.95, 1.0])
+        print(f"{name}: mean {np.mean(taken):.2f} ms, half {middle:.2f}, 95 % {late:.2f}, most {most:.1f}")
+
+
+def main() -> None:
+    """Read the command line, measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--weights", choices=["shipped"], help="in place of weights learnt from the other tables")
+    parser.add_argument("--steps", type=int, default=14, help="of the fit")
+    parser.add_argument("--questions", action="store_true")
+    parser.add_argument("--speed", action="store_true")
+    parser.add_argument("--seed", type=int, default=0)
+    given = parser.parse_args()
+    corpus = load_corpus(given.folder)
+    if given.speed:
+        speed(corpus)
+        return
+    chances = by_shipped(corpus) if given.weights else left_out(corpus, given.steps)
+    show(corpus, chances)
+    if given.questions:
+        robots: list[tuple[str, Planner]] = [(f"asks until {chance}", AskUntil(chance)) for chance in UNTIL]
+        play(corpus, chances, [*robots, ("the default planner", FittedValue())], given.seed)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,30 @@
+"""The dialogues of `dialogues.py`: what is meant is the likeliest item at the end of nearly all of them."""
+
+from __future__ import annotations
+
+import pytest
+
+from fetch_pomdp.core.language.reading.talk import Talk
+from tests.core.language.reading.dialogues import HELD_BACK, LOOKED_AT, TABLES
+from tests.core.language.reading.tables import READER
+
+
+def ends_well(line: str) -> bool:
+    table, turns, item = (part.strip() for part in line.split("|"))
+    talk = Talk(TABLES[table], READER)
+    for turn in (each.strip() for each in turns.split(";")):
+        talk = talk.ask(int(turn[1:])) if turn.startswith("?") else talk.say(turn)
+    return int(talk.chances.argmax()) == int(item)
+
+
+@pytest.mark.parametrize(("part", "least"), [(LOOKED_AT, 0.9), (HELD_BACK, 0.75)], ids=["looked at", "held back"])
+def test_most_dialogues_end_with_what_is_meant(part: str, least: float) -> None:
+    lines = part.strip().splitlines()
+    wrong = [line for line in lines if not ends_well(line)]
+    assert len(wrong) <= (1.0 - least) * len(lines), "\n".join(wrong)
+
+
+def test_there_are_two_hundred_dialogues() -> None:
+    lines = [*LOOKED_AT.strip().splitlines(), *HELD_BACK.strip().splitlines()]
+    assert len(set(lines)) == len(lines) >= 200
+    assert len(HELD_BACK.strip().splitlines()) >= len(lines) // 3

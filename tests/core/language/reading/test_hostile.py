@@ -1,0 +1,40 @@
+"""Whatever is said, the reader neither fails nor hangs."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fetch_pomdp.core.language.reading.grammar import grammar
+from fetch_pomdp.core.language.reading.tokens import MOST_WORDS
+from tests.core.language.reading.tables import LINE, ROOM, heard
+
+KNOWN = sorted({word for phrase in grammar("english").lexicon for word in phrase} | {"red", "mug", "bowl", "."})
+
+
+def finite(text: str) -> None:
+    for table in (LINE, ROOM):
+        found = heard(text, table)
+        assert np.isfinite(found.log_likelihood).all()
+        assert abs(np.exp(found.log_likelihood).sum() - 1.0) < 1e-9
+        assert 0.0 <= found.lost <= 1.0
+
+
+@settings(deadline=None, max_examples=60)
+@given(text=st.text(max_size=80))
+def test_any_text(text: str) -> None:
+    finite(text)
+
+
+@settings(deadline=None, max_examples=120)
+@given(words=st.lists(st.sampled_from(KNOWN), max_size=24))
+def test_any_order_of_words_that_it_knows(words: list[str]) -> None:
+    finite(" ".join(words))
+
+
+def test_long_and_repeated_words() -> None:
+    for text in ("left " * 500, "not " * 200 + "red", "the mug next to " * 60, "a" * 100_000, "it it it it", ". . ."):
+        finite(text)
+    assert heard("red " * 1000).unknown == ()
+    assert MOST_WORDS < 1000
