@@ -40,7 +40,7 @@ from fetch_pomdp.core.language.answers import After, AnswerReader
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
-from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, UtteranceRecognizer, Word
+from fetch_pomdp.core.ports import Failure, Frame, Outcome, Recognizer, Robot, SkeletonSource, UtteranceRecognizer, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.rays import nearest_angles
 from fetch_pomdp.core.simulation import MOST_STEPS
@@ -188,12 +188,12 @@ def interact(
         pace.decided(decision)
         if isinstance(decision.action, Point):
             asking, listening = timing.question - timing.listen, timing.listen
-        outcome = _carry_out(decision.action, agent, robot)
+        result = _carry_out(decision.action, agent, robot)
         now = pace.time(now + asking)
         if isinstance(decision.action, Point) and (early := senses.answers(now - timing.overlap, answers, agent.after)):
             agent.take(early)
             yield early
-        acted = Acted(decision.action, outcome, decision, now, decision.passes)
+        acted = _acted(decision, result, now)
         agent.take(acted)
         yield acted
         if isinstance(acted.action, Pick):
@@ -211,11 +211,16 @@ def interact(
         yield observed
 
 
-def _carry_out(action: Action, agent: Agent, robot: Robot) -> Outcome:
+def _carry_out(action: Action, agent: Agent, robot: Robot) -> Outcome | Failure:
     item = agent.item(action)
     if item is None:
         return Outcome.DONE
     return robot.pick(item) if isinstance(action, Pick) else robot.point(item)
+
+
+def _acted(decision: Decision, result: Outcome | Failure, time: float) -> Acted:
+    outcome, reason = (Outcome.FAILED, result.reason) if isinstance(result, Failure) else (result, "")
+    return Acted(decision.action, outcome, decision, time, decision.passes, reason)
 
 
 def median_ray(frames: Sequence[Frame], problem: Problem) -> Ray | None:

@@ -41,6 +41,13 @@ class Outcome(Enum):
     STOPPED = "stopped"  # the person, or `Robot.stop`, kept it from it
 
 
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """An Outcome.FAILED of a robot that knows why: "could not reach", "dropped it", "blocked by cup-2"."""
+
+    reason: str
+
+
 class Recognizer(Protocol):
     """Ears: turn sound into timed words."""
 
@@ -77,15 +84,15 @@ class SkeletonSource(Protocol):
 class Robot(Protocol):
     """Arm and voice. Each call returns when the movement or the speech has ended."""
 
-    def point(self, item: Item) -> Outcome:
+    def point(self, item: Item) -> Outcome | Failure:
         """Point at an item and ask "this one?"."""
         ...
 
-    def pick(self, item: Item) -> Outcome:
+    def pick(self, item: Item) -> Outcome | Failure:
         """Hand an item over."""
         ...
 
-    def say(self, text: str) -> Outcome:
+    def say(self, text: str) -> Outcome | Failure:
         """Say something that is no question about an item."""
         ...
 

@@ -66,6 +66,7 @@ export interface Acted {
   action: ActionName;
   item: string;
   outcome: "done" | "failed" | "stopped";
+  reason?: string;
 }
 export interface Say {
   type: "say";

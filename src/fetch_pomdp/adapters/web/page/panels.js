@@ -119,8 +119,9 @@ function perceived({ observation, unknown }) {
 }
 
 /** @param {Acted} event */
-function acted({ action, item, outcome }) {
+function acted({ action, item, outcome, reason }) {
   const line = text(action === "point" ? "asked" : "handed", { item });
   if (outcome === "done") return line;
-  return text(outcome === "stopped" ? "stopped" : "not_done", { action: line });
+  const told = text(outcome === "stopped" ? "stopped" : "not_done", { action: line });
+  return reason ? `${told} (${reason})` : told;
 }
