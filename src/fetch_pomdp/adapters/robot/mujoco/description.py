@@ -40,6 +40,15 @@ class Drive:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Box:
+    """A solid box, added to a body of the model."""
+
+    body: str
+    low: Point3  # m, its corners in the body's frame
+    high: Point3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Gripper:
     """Two fingers that close along a line."""
 
@@ -83,6 +92,8 @@ class RobotDescription:
     speed: float  # rad/s, of the fastest joint
     gripper: Gripper
     arms: tuple[Arm, ...]
+    without: tuple[str, ...] = ()  # geoms of the model that are left out
+    boxes: tuple[Box, ...] = ()  # what stands in for them
 
     @classmethod
     def load(cls, name_or_path: str | Path) -> Self:
@@ -104,9 +115,10 @@ class RobotDescription:
         values = _fields(cls, data)
         gripper = _within("gripper", _gripper, values["gripper"])
         arms = tuple(_within(f"arms[{index}]", _arm, fields) for index, fields in enumerate(values["arms"]))
+        boxes = tuple(_within(f"boxes[{index}]", _box, fields) for index, fields in enumerate(values.get("boxes", ())))
         if not arms:
             raise RobotDescriptionError("found no arms, expected one or more", field="arms")
-        return cls(**{**values, "gripper": gripper, "arms": arms})
+        return cls(**{**values, "gripper": gripper, "arms": arms, "boxes": boxes})
 
     def file(self, path: str) -> Path:
         """Return where a file of the package is. Raises MissingExtraError, with the line that installs the package."""
@@ -131,6 +143,10 @@ def _drive(data: Mapping[str, Any]) -> Drive:
     if (drive.joint is None) == (drive.tendon is None):
         raise RobotDescriptionError("expected either a joint or a tendon", field="joint")
     return drive
+
+
+def _box(data: Mapping[str, Any]) -> Box:
+    return Box(**_fields(Box, data))
 
 
 def _arm(data: Mapping[str, Any]) -> Arm:

@@ -14,7 +14,7 @@ from fetch_pomdp.core.compiled import Vector
 POINTING_GAP = (0.14, 0.2)  # m, from the point between the fingers to the item's middle
 ELEVATIONS = (55.0, 70.0, 40.0, 85.0)  # degrees, of a pointing hand's axis, down from the horizontal
 ASIDE = (0.0, 0.5, -0.5)  # rad, of its direction from that of the shoulder
-TILTS = (0.0, 20.0, 40.0)  # degrees, of a taking hand from straight down
+TILTS = (0.0, 20.0, 40.0, 60.0)  # degrees, of a taking hand from straight down
 FLOORS = 0.004  # m, that the fingertips stay above the table
 UPRIGHT = 0.9  # cosine of the steepest lean at which a cup or a bowl still stands
 DOWN = np.array([0.0, 0.0, -1.0])

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fetch_pomdp.adapters.robot.mujoco.description import Arm, Gripper, RobotDescription
+from fetch_pomdp.adapters.robot.mujoco.description import Arm, Box, Gripper, RobotDescription
 from fetch_pomdp.adapters.robot.mujoco.kinds import Part
 from fetch_pomdp.adapters.robot.mujoco.layout import Body, Layout
 from fetch_pomdp.core.compiled import Vector
@@ -39,6 +39,10 @@ def robot_spec(robot: RobotDescription) -> Any:
     mujoco = load("mujoco", EXTRA)
     spec = mujoco.MjSpec.from_file(str(robot.file(robot.model)))
     _strip(spec)
+    for name in robot.without:
+        spec.delete(spec.geom(name))
+    for box in robot.boxes:
+        _add_box(spec, box)
     for arm in robot.arms:
         _mount(spec, robot, arm)
         for joint, stiffness, torque in zip(arm.joints, arm.stiffness, arm.torque, strict=True):
@@ -89,6 +93,12 @@ def _strip(spec: Any) -> None:
     """Take away what is not of the robot's body: motors (ours are servos), sensors, lights, cameras, key frames."""
     for part in (*spec.actuators, *spec.sensors, *spec.lights, *spec.cameras, *spec.keys):
         spec.delete(part)
+
+
+def _add_box(spec: Any, box: Box) -> None:
+    low, high = np.array(box.low), np.array(box.high)
+    shape = load("mujoco", EXTRA).mjtGeom.mjGEOM_BOX
+    spec.body(box.body).add_geom(type=shape, size=(high - low) / 2, pos=(low + high) / 2, contype=1, conaffinity=1, mass=0.0)
 
 
 def _mount(spec: Any, robot: RobotDescription, arm: Arm) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from fetch_pomdp.adapters.robot.mujoco.model import PERSON
 from fetch_pomdp.adapters.robot.mujoco.planning import CannotError, StoppedError
-from fetch_pomdp.adapters.robot.mujoco.trajectory import braked, trajectory
+from fetch_pomdp.adapters.robot.mujoco.trajectory import Target, braked, held, trajectory
 from fetch_pomdp.adapters.robot.mujoco.world import World
 from fetch_pomdp.core.compiled import Vector
 
@@ -52,16 +52,16 @@ class Mover:
         way = trajectory(path, speed * self._world.robot.speed)
         if way is None:
             return
-        begun, elapsed, along, fast = self._world.time, 0.0, 0.0, 0.0
+        begun, elapsed, place = self._world.time, 0.0, way.along(0.0)
         try:
             while elapsed < way.duration:
                 self._heed(arm)
                 elapsed += self._world.timestep
-                along, fast = way.along(elapsed)
-                self._command(arm, *way.at(along, fast), doing)
-            self._settle(arm, way.path[-1], doing)
+                place = way.along(elapsed)
+                self._command(arm, way.at(place), doing)
+            self._settle(arm, held(way.path[-1]), doing)
         except (StoppedError, CannotError):
-            self._brake(lambda time: way.at(*braked(along, fast, time)), arm, doing)
+            self._brake(lambda time: way.at(braked(place, time)), arm, doing)
             self._note(doing, way.duration, begun, completed=False)
             raise
         self._note(doing, way.duration, begun, completed=True)
@@ -70,6 +70,14 @@ class Mover:
         """Open (0) or close (1) the fingers. Raises StoppedError if it was stopped."""
         self._world.command_fingers(arm, closed)
         self.wait(self._world.robot.gripper.time, doing)
+
+    def release(self, arm: str, doing: Doing) -> None:
+        """Open the fingers, whether it is stopped or not: what is in them is going already."""
+        begun = self._world.time
+        self._world.command_fingers(arm, 0.0)
+        while self._world.time < begun + self._world.robot.gripper.time:
+            self._step(doing)
+        self._note(doing, self._world.robot.gripper.time, begun, completed=True)
 
     def wait(self, seconds: float, doing: Doing) -> None:
         """Let time pass. Raises StoppedError if it was stopped."""
@@ -91,23 +99,25 @@ class Mover:
         if lag > LOST:
             raise CannotError(f"blocked by {log[-1].with_what}" if log else "was held up")
 
-    def _command(self, arm: str, angles: Vector, velocities: Vector, doing: Doing) -> None:
-        self._world.command(arm, angles, velocities)
+    def _command(self, arm: str, target: Target, doing: Doing) -> None:
+        self._world.command(arm, target)
         self._step(doing)
 
-    def _settle(self, arm: str, end: Vector, doing: Doing) -> None:
+    def _settle(self, arm: str, end: Target, doing: Doing) -> None:
         begun = self._world.time
-        while self._world.time < begun + SETTLE and self._world.fastest(arm) > STILL:
+        while True:
+            self._command(arm, end, doing)
+            if self._world.time > begun + SETTLE or self._world.fastest(arm) < STILL:
+                return
             self._heed(arm)
-            self._command(arm, end, np.zeros(len(end)), doing)
 
-    def _brake(self, place: Callable[[float], tuple[Vector, Vector]], arm: str, doing: Doing) -> None:
+    def _brake(self, place: Callable[[float], Target], arm: str, doing: Doing) -> None:
         """Slow down along the path, and hold the arm where it comes to rest."""
         begun = self._world.time
         while self._world.time < begun + SETTLE:
-            angles, velocities = place(self._world.time + self._world.timestep - begun)
-            self._command(arm, angles, velocities, doing)
-            if not velocities.any() and self._world.fastest(arm) < STILL:
+            target = place(self._world.time + self._world.timestep - begun)
+            self._command(arm, target, doing)
+            if not target.accelerations.any() and self._world.fastest(arm) < STILL:
                 break
 
     def _step(self, doing: Doing) -> None:

@@ -55,7 +55,7 @@ def find_path(start: Vector, end: Vector, space: Space, *, seconds: float) -> Ve
     load("ompl", EXTRA)
     from ompl import base, geometric, util
 
-    util.setLogLevel(util.LOG_ERROR)
+    util.setLogLevel(util.LOG_NONE)
     joints = len(start)
     states, bounds = base.RealVectorStateSpace(joints), base.RealVectorBounds(joints)
     for joint in range(joints):

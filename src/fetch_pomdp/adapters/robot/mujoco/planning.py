@@ -30,6 +30,7 @@ SPREAD = 0.5  # rad, of these around where the arm rests
 
 COULD_NOT_REACH = "could not reach"
 NO_WAY = "found no way"
+STRETCHED = "its own reach"  # on the straight way from an item that it reaches
 
 
 class CannotError(Exception):
@@ -117,22 +118,25 @@ class Planner:
 
     def _take(self, arm: str, item: Body, grasp: Pose, search: Search) -> Take | None:
         above = Pose(grasp.place - APPROACH * grasp.axes[:, 2], grasp.axes)
-        for start in self._solutions(arm, HandGoal(above), search):
-            down = self._straight(arm, start, above, grasp)
-            if down is None:
+        over = Pose(grasp.place + np.array([0.0, 0.0, LIFT]), grasp.axes)
+        held = relative(self._world.item_pose(item.id), grasp)
+        for there in self._solutions(arm, HandGoal(grasp), search):
+            culprit = self._checker.blocked_by(arm, there, NEAR, ignore=(item.id,))
+            if culprit is not None:
+                search.blocked(culprit)
                 continue
-            over = Pose(grasp.place + [0.0, 0.0, LIFT], grasp.axes)
-            up = self._straight(arm, down[-1], grasp, over)
-            if up is None:
+            away, up = self._straight(arm, there, grasp, above), self._straight(arm, there, grasp, over)
+            if away is None or up is None:
+                search.blocked(STRETCHED)
                 continue
+            down = away[::-1]
             free = round(0.3 * len(down))  # there the hand is still above the item
             culprit = self._blocked(arm, down[:free], NEAR) or self._blocked(arm, down[free:], NEAR, ignore=(item.id,))
-            held = relative(self._world.item_pose(item.id), grasp)
             culprit = culprit or self._blocked_lift(arm, up, Carried(item.id, arm, held))
             if culprit is not None:
                 search.blocked(culprit)
                 continue
-            path = self._path(arm, start)
+            path = self._path(arm, down[0])
             if path is not None:
                 return Take(arm, item.id, path, down, up, held)
             search.blocked(NO_WAY)
@@ -211,7 +215,8 @@ class Planner:
 
     def _path(self, arm: str, end: Vector) -> Vector | None:
         start, index = self._world.joints(arm), self._world.arms[arm]
-        clearance = FAR if self._checker.blocked_by(arm, start, FAR) is None else NEAR
+        roomy = all(self._checker.blocked_by(arm, angles, FAR) is None for angles in (start, end))
+        clearance = FAR if roomy else NEAR
         space = Space(
             index.lowest, index.highest, lambda angles: self._checker.blocked_by(arm, angles, clearance) is None,
             self._stopped,
@@ -245,7 +250,7 @@ class Search:
         if not self.reached:
             return COULD_NOT_REACH
         culprits = [culprit for culprit, _ in self._culprits.most_common()]
-        named = [culprit for culprit in culprits if culprit not in {ITSELF, TABLE, NO_WAY}]
+        named = [culprit for culprit in culprits if culprit not in {ITSELF, TABLE, NO_WAY, STRETCHED}]
         if named:
             return _blocked(named[0])
         return NO_WAY if NO_WAY in culprits else COULD_NOT_REACH

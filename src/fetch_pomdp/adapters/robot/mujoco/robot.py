@@ -175,16 +175,15 @@ class MujocoRobot:
         arm, item = load.carried.arm, load.carried.id
         self._say(GIVES)
         before = self._in_hand(arm, item)
+        self.world.pull(item, arm, firmly=False)
         try:
-            self.world.pull(item, arm, firmly=False)
             self.mover.wait(TUG, Doing(TUGGED, item))
-            slip = _apart(self._in_hand(arm, item), before)
-            self.world.pull(item, arm, firmly=True)
-            self.mover.fingers(arm, 0.0, Doing(GIVE, item))
         except StoppedError:
             self.world.let_be(item)
-            self.world.command_fingers(arm, 1.0)
             raise
+        slip = _apart(self._in_hand(arm, item), before)
+        self.world.pull(item, arm, firmly=True)
+        self.mover.release(arm, Doing(GIVE, item))
         self._load = None
         if _apart(self._in_hand(arm, item), before) < GONE:
             self.world.let_be(item)

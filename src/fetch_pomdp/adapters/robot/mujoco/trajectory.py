@@ -14,6 +14,24 @@ BRAKING = 10.0  # rad/s^2, when it is stopped
 
 
 @dataclass(frozen=True, slots=True)
+class Place:
+    """A place along a path (rad), with speed (rad/s) and acceleration (rad/s^2) along it."""
+
+    along: float
+    speed: float
+    acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """What an arm's joints shall do at a moment, (n_joints,) each: rad, rad/s, rad/s^2."""
+
+    angles: Vector
+    velocities: Vector
+    accelerations: Vector
+
+
+@dataclass(frozen=True, slots=True)
 class Trajectory:
     """A path with its arc length, counted by the joint that moves most in each piece, and a speed along it."""
 
@@ -34,25 +52,25 @@ class Trajectory:
             return self.length / self.speed + self.speed / ACCELERATION
         return 2.0 * math.sqrt(self.length / ACCELERATION)
 
-    def along(self, time: float) -> tuple[float, float]:
-        """Return how far (rad) along the path it is at a time (s), and how fast (rad/s)."""
+    def along(self, time: float) -> Place:
+        """Return where along the path it is at a time (s)."""
         end = self.duration
         time = min(max(time, 0.0), end)
         peak = min(self.speed, ACCELERATION * end / 2)
         ramp = peak / ACCELERATION
         if time < ramp:
-            return ACCELERATION * time**2 / 2, ACCELERATION * time
+            return Place(ACCELERATION * time**2 / 2, ACCELERATION * time, ACCELERATION)
         if time > end - ramp:
             left = end - time
-            return self.length - ACCELERATION * left**2 / 2, ACCELERATION * left
-        return peak * (time - ramp / 2), peak
+            return Place(self.length - ACCELERATION * left**2 / 2, ACCELERATION * left, -ACCELERATION)
+        return Place(peak * (time - ramp / 2), peak, 0.0)
 
-    def at(self, along: float, speed: float) -> tuple[Vector, Vector]:
-        """Return the angles (n_joints,) and their velocities (rad/s) at a place along the path."""
-        piece = int(np.clip(np.searchsorted(self.lengths, along, side="right") - 1, 0, len(self.path) - 2))
-        span = self.lengths[piece + 1] - self.lengths[piece]
-        slope = (self.path[piece + 1] - self.path[piece]) / span
-        return self.path[piece] + slope * (along - self.lengths[piece]), slope * speed
+    def at(self, place: Place) -> Target:
+        """Return what the joints do at a place along the path."""
+        piece = int(np.clip(np.searchsorted(self.lengths, place.along, side="right") - 1, 0, len(self.path) - 2))
+        slope = (self.path[piece + 1] - self.path[piece]) / (self.lengths[piece + 1] - self.lengths[piece])
+        angles = self.path[piece] + slope * (place.along - self.lengths[piece])
+        return Target(angles, slope * place.speed, slope * place.acceleration)
 
 
 def trajectory(path: Vector, speed: float) -> Trajectory | None:
@@ -64,7 +82,14 @@ def trajectory(path: Vector, speed: float) -> Trajectory | None:
     return Trajectory(path[kept], np.concatenate([[0.0], np.cumsum(steps[steps > 1e-9])]), speed)
 
 
-def braked(along: float, speed: float, time: float) -> tuple[float, float]:
-    """Return place (rad) and speed (rad/s) along a path, `time` (s) after braking began there at a speed."""
-    time = min(time, speed / BRAKING)
-    return along + speed * time - BRAKING * time**2 / 2, speed - BRAKING * time
+def braked(place: Place, time: float) -> Place:
+    """Return the place along a path, `time` (s) after braking began at another."""
+    until = place.speed / BRAKING
+    slowing = BRAKING if time < until else 0.0
+    time = min(time, until)
+    return Place(place.along + place.speed * time - BRAKING * time**2 / 2, place.speed - BRAKING * time, -slowing)
+
+
+def held(angles: Vector) -> Target:
+    """Return what joints (n_joints,) do that stay where they are."""
+    return Target(angles, np.zeros(len(angles)), np.zeros(len(angles)))

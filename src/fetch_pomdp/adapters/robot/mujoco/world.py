@@ -11,6 +11,7 @@ from fetch_pomdp.adapters.robot.mujoco.contacts import ContactLog, Owners
 from fetch_pomdp.adapters.robot.mujoco.description import Arm, RobotDescription
 from fetch_pomdp.adapters.robot.mujoco.layout import Body, Layout
 from fetch_pomdp.adapters.robot.mujoco.model import EXTRA, LAG, body_of, tcp, world_model
+from fetch_pomdp.adapters.robot.mujoco.trajectory import Target
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.extras import load
 
@@ -52,7 +53,7 @@ class World:
         self.arms = {arm.name: _index(self.model, arm, len(robot.gripper.drives)) for arm in robot.arms}
         self.owners = Owners(self.model, robot.root, self.items, self.arms)
         self.log = ContactLog(self.owners)
-        self._step = mujoco.mj_step
+        self._step, self._inertia = mujoco.mj_step, mujoco.mj_mulM
         self._commanded = {arm.name: np.array(arm.home) for arm in robot.arms}
         for arm in self.arms.values():
             self.data.qpos[arm.qpos] = arm.arm.home
@@ -84,10 +85,21 @@ class World:
         """Return the speed of an arm's fastest joint, rad/s."""
         return float(np.abs(self.data.qvel[self.arms[arm].dofs]).max())
 
-    def command(self, arm: str, angles: Vector, velocities: Vector) -> None:
-        """Have an arm's servos hold angles (n_joints,) that change at `velocities` (rad/s)."""
-        self._commanded[arm] = angles
-        self.data.ctrl[self.arms[arm].servos] = angles + LAG * velocities  # the servos' damping lags by this
+    def command(self, arm: str, target: Target) -> None:
+        """Have an arm's servos follow a target.
+
+        Choice: as real arms' controllers do, it knows the torques that the movement itself needs (computed torque), and
+        the damping that the servos have, and adds both.
+        """
+        index = self.arms[arm]
+        self._commanded[arm] = target.angles
+        wanted = np.zeros(self.model.nv)
+        wanted[index.dofs] = target.accelerations
+        torques = np.empty(self.model.nv)
+        self._inertia(self.model, self.data, torques, wanted)
+        torques += self.data.qfrc_bias - self.data.qfrc_gravcomp
+        ahead = LAG * target.velocities + torques[index.dofs] / index.arm.stiffness
+        self.data.ctrl[index.servos] = target.angles + ahead
 
     def command_fingers(self, arm: str, closed: float) -> None:
         """Have the fingers go to a place from 0, open, to 1, closed."""
