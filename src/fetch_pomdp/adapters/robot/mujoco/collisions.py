@@ -88,11 +88,11 @@ class CollisionChecker:
     def _nearest(self, pairs: Vector, distances: Vector, clearance: Clearance, ignore: frozenset[str]) -> str | None:
         owner = self._owners.owner[pairs]
         mine = owner == ROBOT
-        allowed = np.zeros(len(pairs), dtype=bool)
+        allowed = self._owners.within_a_hand(pairs)
         if self._carried is not None:
             held = owner == self._owners.number(self._carried.id)
             mine |= held
-            allowed = held.any(axis=1) & self._owners.of_hand[self._carried.arm][pairs].any(axis=1)
+            allowed |= held.any(axis=1) & self._owners.of_hand[self._carried.arm][pairs].any(axis=1)
         other = np.where(mine.all(axis=1), ROBOT, np.where(mine[:, 0], owner[:, 1], owner[:, 0]))
         limits = self._limits
         limits[:] = clearance.items

@@ -54,6 +54,10 @@ class Owners:
         """Return which geoms are an item's, (n_geoms,) bool."""
         return self.owner == self.number(item)
 
+    def within_a_hand(self, pairs: Vector) -> Vector:
+        """Return which pairs of geoms (n, 2) are of one gripper, whose links meet when it closes, (n,) bool."""
+        return np.logical_or.reduce([hand[pairs].all(axis=1) for hand in self.of_hand.values()])
+
     def number(self, item: str) -> int:
         """Return the number that marks an item's geoms in `owner`."""
         return FIRST_ITEM + self.items.index(item)
@@ -80,7 +84,7 @@ class ContactLog:
         """
         pairs = data.contact.geom[: data.ncon]
         owner = self._owners.owner[pairs]
-        mine, taken = owner == ROBOT, np.zeros(len(pairs), dtype=bool)
+        mine, taken = owner == ROBOT, self._owners.within_a_hand(pairs)
         for item in (target, carried):
             if item is None:
                 continue

@@ -58,13 +58,10 @@ def robot_spec(robot: RobotDescription) -> Any:
 
 def world_model(robot: RobotDescription, layout: Layout) -> Any:
     """Return the compiled model of a layout."""
-    mujoco = load("mujoco", EXTRA)
-    spec = robot_spec(robot)
+    mujoco, spec = load("mujoco", EXTRA), robot_spec(robot)
     place_robot(spec, robot, layout)
     spec.option.timestep = TIMESTEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    spec.option.impratio = 10
     spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 960
     _room(spec, layout)
     _table(spec, layout)
@@ -90,7 +87,12 @@ def quaternion_product(left: Any, right: Any) -> Vector:
 
 
 def _strip(spec: Any) -> None:
-    """Take away what is not of the robot's body: motors (ours are servos), sensors, lights, cameras, key frames."""
+    """Take away what is not of the robot's body: motors (ours are servos), sensors, lights, cameras, key frames.
+
+    What is left has contacts as grasping needs them, the same in a robot and in the gripper that it gets.
+    """
+    spec.option.cone = load("mujoco", EXTRA).mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10
     for part in (*spec.actuators, *spec.sensors, *spec.lights, *spec.cameras, *spec.keys):
         spec.delete(part)
 
@@ -98,7 +100,9 @@ def _strip(spec: Any) -> None:
 def _add_box(spec: Any, box: Box) -> None:
     low, high = np.array(box.low), np.array(box.high)
     shape = load("mujoco", EXTRA).mjtGeom.mjGEOM_BOX
-    spec.body(box.body).add_geom(type=shape, size=(high - low) / 2, pos=(low + high) / 2, contype=1, conaffinity=1, mass=0.0)
+    spec.body(box.body).add_geom(
+        type=shape, size=(high - low) / 2, pos=(low + high) / 2, contype=1, conaffinity=1, mass=0.0
+    )
 
 
 def _mount(spec: Any, robot: RobotDescription, arm: Arm) -> None:

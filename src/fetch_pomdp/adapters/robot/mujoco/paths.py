@@ -44,14 +44,24 @@ def is_free(path: Vector, free: Callable[[Vector], bool]) -> bool:
     return True
 
 
-def find_path(start: Vector, end: Vector, space: Space, *, seconds: float) -> Vector | None:
+def find_path(start: Vector, end: Vector, space: Space, *, via: Vector, seconds: float) -> Vector | None:
     """Return a free path (n, n_joints) between two free configurations, None if none was found in the time.
 
-    seconds: of planning; a path that is found in it is shortened afterwards.
+    via: a configuration (n_joints,) with room around it, by which to go where OMPL finds nothing. seconds: of OMPL's
+    search; a path that is found in it is shortened afterwards.
     """
     line = straight(start, end)
     if is_free(line, space.free):
         return line
+    found = _searched(start, end, space, seconds)
+    if found is not None:
+        return found
+    line = np.concatenate([straight(start, via), straight(via, end)[1:]])
+    return line if space.free(via) and is_free(line, space.free) else None
+
+
+def _searched(start: Vector, end: Vector, space: Space, seconds: float) -> Vector | None:
+    """Return the path that RRTConnect finds, None if it finds none in the time."""
     load("ompl", EXTRA)
     from ompl import base, geometric, util
 

@@ -24,7 +24,7 @@ STRETCH = 0.01  # m, between configurations of a straight way of the hand
 FREE_BELOW = 0.02  # m of a lift in which what is lifted may be near the table
 JUMP = 0.6  # rad, of a joint between two configurations of a straight way, that is none
 SEARCH = 1.5  # s, in which a plan is looked for
-PATH = 0.6  # s, of which a single path may take
+PATH = 0.3  # s, for which OMPL looks for a single path
 SEEDS = 4  # of a goal's inverse kinematics, beside where the arm is and where it rests
 SPREAD = 0.5  # rad, of these around where the arm rests
 
@@ -221,7 +221,7 @@ class Planner:
             index.lowest, index.highest, lambda angles: self._checker.blocked_by(arm, angles, clearance) is None,
             self._stopped,
         )  # fmt: skip
-        path = find_path(start, end, space, seconds=PATH)
+        path = find_path(start, end, space, via=np.array(index.arm.home), seconds=PATH)
         if self._stopped():
             raise StoppedError
         return path
