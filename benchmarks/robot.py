@@ -122,15 +122,13 @@ def touched(contacts: Sequence[Contact]) -> list[str]:
     return [
         f"{contact.phase}: {contact.what} {contact.with_what}"
         for contact in contacts
-        if not (
-            contact.with_what == TABLE and contact.what in contact_items(contact) and contact.phase in {"lift", "lower"}
-        )
+        if not (contact.with_what == TABLE and is_item(contact.what) and contact.phase in {"lift", "lower"})
     ]
 
 
-def contact_items(contact: Contact) -> set[str]:
-    """Return the name of what touched if it is an item."""
-    return {contact.what} if contact.what.rpartition("-")[0] in KINDS else set()
+def is_item(name: str) -> bool:
+    """Return whether what touched is an item."""
+    return name.rpartition("-")[0] in KINDS
 
 
 def displaced(world: World, before: dict[str, np.ndarray], but: str) -> float:
@@ -208,8 +206,9 @@ def report(rows: Sequence[Row]) -> str:
     lines = [
         f"pointed: {percent([not row.pointed for row in rows])}; within 1.5 degrees: "
         f"{percent([not row.pointed and row.angle <= 1.5 for row in rows])}; right item nearest: "
-        f"{percent([row.nearest for row in pointed])}; angle median {np.median([row.angle for row in pointed]):.2f}, max "
-        f"{max(row.angle for row in pointed):.2f} degrees",
+        f"{percent([row.nearest for row in pointed])}",
+        f"angle: median {np.median([row.angle for row in pointed]):.2f}, "
+        f"max {max(row.angle for row in pointed):.2f} degrees",
         f"fetched: {percent([not row.fetched for row in rows])}",
     ]
     for kind in KINDS:
@@ -217,7 +216,8 @@ def report(rows: Sequence[Row]) -> str:
     lines += [
         f"contacts with table or person: {sum(_with_us(text) for row in rows for text in row.touched)}; others: "
         f"{dict(Counter(text for row in rows for text in row.touched if not _with_us(text)).most_common(8))}",
-        f"another item moved by 2 cm: {sum(row.moved > MOVED for row in rows)}; most {max(row.moved for row in rows):.3f} m",
+        f"another item moved by 2 cm: {sum(row.moved > MOVED for row in rows)}; "
+        f"most {max(row.moved for row in rows):.3f} m",
         f"slip at 1.5 N above 2 cm: {sum(row.slip > MOVED for row in rows)}",
         f"planning, a plan: median {np.median(each):.3f}, p95 {np.quantile(each, 0.95):.3f}, max {each.max():.2f} s; "
         f"a table: p95 {np.quantile(planning, 0.95):.2f} s",
@@ -228,8 +228,8 @@ def report(rows: Sequence[Row]) -> str:
     for row in rows:
         if row.fetched or row.pointed or row.angle > 1.5 or row.touched or row.moved > MOVED:
             lines.append(
-                f"  {row.seed}: {row.asked} {row.pointed} {row.angle:.2f}; {row.wanted} {row.fetched}; moved {row.moved:.3f}; "
-                f"{row.touched[:3]}"
+                f"  {row.seed}: {row.asked} {row.pointed} {row.angle:.2f}; {row.wanted} {row.fetched}; "
+                f"moved {row.moved:.3f}; {row.touched[:3]}"
             )
     return "\n".join([*lines, *durations(rows)])
 
@@ -265,7 +265,8 @@ def report_stops(stops: Sequence[Stop]) -> str:
         f"latest {max((one.still for one in stopped), default=0.0):.3f} s; "
         f"in {dict(Counter(one.phase for one in stopped))}",
         f"rested afterwards: {percent([not one.rested for one in stopped])}; item within 2 cm of its place: "
-        f"{percent([one.back <= MOVED for one in put_back])}; another moved: {sum(one.moved > MOVED for one in stopped)}; "
+        f"{percent([one.back <= MOVED for one in put_back])}; "
+        f"another moved: {sum(one.moved > MOVED for one in stopped)}; "
         f"contacts with table or person: {sum(_with_us(text) for one in stopped for text in one.touched)}",
     ]
     for one in stopped:

@@ -1,4 +1,4 @@
-"""What an arm would touch where it is not yet: a copy of the world in which only the robot, and what it carries, collide."""
+"""What an arm would touch where it is not yet: a copy of the world in which only the robot and its load collide."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fetch_pomdp.adapters.robot.mujoco.contacts import FIRST_ITEM, FURNITURE, ROBOT, SOMEBODY
+from fetch_pomdp.adapters.robot.mujoco.contacts import FIRST_ITEM, FURNITURE, ROBOT, SOMEBODY, Numbers
 from fetch_pomdp.adapters.robot.mujoco.model import EXTRA, body_of
 from fetch_pomdp.adapters.robot.mujoco.world import Pose, World
 from fetch_pomdp.core.compiled import Vector
@@ -85,7 +85,7 @@ class CollisionChecker:
         pairs, distances = data.contact.geom[: data.ncon], data.contact.dist[: data.ncon]
         return self._nearest(pairs, distances, clearance, frozenset(ignore))
 
-    def _nearest(self, pairs: Vector, distances: Vector, clearance: Clearance, ignore: frozenset[str]) -> str | None:
+    def _nearest(self, pairs: Numbers, distances: Vector, clearance: Clearance, ignore: frozenset[str]) -> str | None:
         owner = self._owners.owner[pairs]
         mine = owner == ROBOT
         allowed = self._owners.within_a_hand(pairs)
@@ -118,7 +118,7 @@ class CollisionChecker:
                 found[bodies] = min(found.get(bodies, np.inf), float(contact.dist) - AS_AT_REST)
         return found
 
-    def _bodies(self, pair: Vector) -> tuple[int, int]:
+    def _bodies(self, pair: Numbers) -> tuple[int, int]:
         first, second = self._owners.body_of[pair]
         return (int(first), int(second)) if first < second else (int(second), int(first))
 

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from fetch_pomdp.adapters.robot.mujoco.model import FLOOR, PERSON, TABLE, body_of
-from fetch_pomdp.core.compiled import Vector
 
+Flags = npt.NDArray[np.bool_]
+Numbers = npt.NDArray[np.int64]
 NOTHING, ROBOT, FURNITURE, SOMEBODY, FIRST_ITEM = -1, 0, 1, 2, 3
 
 
@@ -34,9 +36,9 @@ class Owners:
 
     def __init__(self, model: Any, root: str, items: Iterable[str], arms: Iterable[str]) -> None:
         self.items = tuple(items)
-        self.body_of: Vector = np.array(model.geom_bodyid)
+        self.body_of: Numbers = np.array(model.geom_bodyid, dtype=np.int64)
         roots = model.body_rootid[self.body_of]
-        owner = np.full(model.ngeom, NOTHING)
+        owner: Numbers = np.full(model.ngeom, NOTHING)
         owner[roots == model.body(root).id] = ROBOT
         owner[roots == model.body(TABLE).id] = FURNITURE
         owner[model.geom(FLOOR).id] = FURNITURE
@@ -45,18 +47,18 @@ class Owners:
             owner[roots == model.body(body_of(item)).id] = FIRST_ITEM + index
         self.owner = owner
         names = [model.body(index).name for index in self.body_of]
-        self.of_hand: dict[str, Vector] = {
-            arm: np.array([name.startswith(f"{arm}/") for name in names]) for arm in arms
-        }
-        self._bodies = [model.body(index).name for index in range(model.nbody)]
+        self.of_hand: dict[str, Flags] = {arm: np.array([name.startswith(f"{arm}/") for name in names]) for arm in arms}
+        self._bodies: list[str] = [model.body(index).name for index in range(model.nbody)]
 
-    def geoms(self, item: str) -> Vector:
+    def geoms(self, item: str) -> Flags:
         """Return which geoms are an item's, (n_geoms,) bool."""
-        return self.owner == self.number(item)
+        found: Flags = self.owner == self.number(item)
+        return found
 
-    def within_a_hand(self, pairs: Vector) -> Vector:
+    def within_a_hand(self, pairs: Numbers) -> Flags:
         """Return which pairs of geoms (n, 2) are of one gripper, whose links meet when it closes, (n,) bool."""
-        return np.logical_or.reduce([hand[pairs].all(axis=1) for hand in self.of_hand.values()])
+        found: Flags = np.any([hand[pairs].all(axis=1) for hand in self.of_hand.values()], axis=0)
+        return found
 
     def number(self, item: str) -> int:
         """Return the number that marks an item's geoms in `owner`."""
@@ -67,7 +69,8 @@ class Owners:
         owner = int(self.owner[geom])
         if owner >= FIRST_ITEM:
             return self.items[owner - FIRST_ITEM]
-        return {FURNITURE: TABLE, SOMEBODY: PERSON}.get(owner, self._bodies[self.body_of[geom]])
+        bodies = {FURNITURE: TABLE, SOMEBODY: PERSON}
+        return bodies.get(owner, self._bodies[int(self.body_of[geom])])
 
 
 class ContactLog:

@@ -79,6 +79,14 @@ class Arm:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Durations:
+    """Measured times, s, medians over random tables (benchmarks/robot.py)."""
+
+    point: float  # from rest to pointing at an item
+    pick: float  # from rest until the person has an item
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RobotDescription:
     """A robot with one arm or more, all with the same gripper."""
 
@@ -92,6 +100,7 @@ class RobotDescription:
     speed: float  # rad/s, of the fastest joint
     gripper: Gripper
     arms: tuple[Arm, ...]
+    durations: Durations
     without: tuple[str, ...] = ()  # geoms of the model that are left out
     boxes: tuple[Box, ...] = ()  # what stands in for them
 
@@ -118,15 +127,17 @@ class RobotDescription:
         boxes = tuple(_within(f"boxes[{index}]", _box, fields) for index, fields in enumerate(values.get("boxes", ())))
         if not arms:
             raise RobotDescriptionError("found no arms, expected one or more", field="arms")
-        return cls(**{**values, "gripper": gripper, "arms": arms, "boxes": boxes})
+        durations = _within("durations", lambda fields: Durations(**_fields(Durations, fields)), values["durations"])
+        return cls(**{**values, "durations": durations, "gripper": gripper, "arms": arms, "boxes": boxes})
 
     def file(self, path: str) -> Path:
         """Return where a file of the package is. Raises MissingExtraError, with the line that installs the package."""
         spec = find_spec(self.package)
         if spec is None or not spec.submodule_search_locations:
-            raise MissingExtraError(
-                f"{self.package}, which ships the model of {self.name}, is not installed; install it with: {self.install}"
+            line = (
+                f"{self.package}, which has the model of {self.name}, is not installed; install it with: {self.install}"
             )
+            raise MissingExtraError(line)
         return Path(spec.submodule_search_locations[0]) / path
 
 

@@ -11,13 +11,14 @@ from fetch_pomdp.adapters.robot.mujoco.kinds import Across, Along, Kind, Rim
 from fetch_pomdp.adapters.robot.mujoco.world import Pose
 from fetch_pomdp.core.compiled import Vector
 
-POINTING_GAP = (0.14, 0.2)  # m, from the point between the fingers to the item's middle
+AROUND = tuple(math.pi * part for part in (1.0, 0.75, -0.75, 0.5, -0.5, 0.25, -0.25, 0.0))  # rad, of a rim
+POINTING_GAP = (0.14, 0.2, 0.35, 0.6)  # m, from the point between the fingers to the item's middle, the best first
 ELEVATIONS = (55.0, 70.0, 40.0, 85.0)  # degrees, of a pointing hand's axis, down from the horizontal
 ASIDE = (0.0, 0.5, -0.5)  # rad, of its direction from that of the shoulder
 TILTS = (0.0, 20.0, 40.0, 60.0)  # degrees, of a taking hand from straight down
 FLOORS = 0.004  # m, that the fingertips stay above the table
 UPRIGHT = 0.9  # cosine of the steepest lean at which a cup or a bowl still stands
-DOWN = np.array([0.0, 0.0, -1.0])
+UP, DOWN = np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, -1.0])
 PERSON_ROOM = 0.5  # m along the floor, that a giving hand leaves before the person's head
 GIVING = ((0.85, 0.1, 0.30), (0.8, 0.25, 0.28), (0.75, 0.2, 0.23), (0.65, 0.2, 0.23), (0.5, 0.25, 0.3))  # m
 
@@ -66,21 +67,12 @@ def _places(kind: Kind, item: Pose, shoulder: Vector, depth: float) -> Iterator[
         return  # it lies on its side
     if isinstance(take, Across):
         for turn in (math.pi / 2, 0.0, math.pi / 4, -math.pi / 4):
-            yield item.place + [0.0, 0.0, max(take.height, low)], away + turn
+            yield item.place + max(take.height, low) * UP, away + turn
     elif isinstance(take, Rim):
-        for turn in (
-            math.pi,
-            0.75 * math.pi,
-            -0.75 * math.pi,
-            math.pi / 2,
-            -math.pi / 2,
-            math.pi / 4,
-            -math.pi / 4,
-            0.0,
-        ):
+        for turn in AROUND:
             angle = away + turn
             out = take.radius * np.array([math.cos(angle), math.sin(angle), 0.0])
-            yield item.place + out + [0.0, 0.0, max(take.height, low)], angle
+            yield item.place + out + max(take.height, low) * UP, angle
     else:
         along = item.axes[:, 0] * [1.0, 1.0, 0.0]
         length = float(np.linalg.norm(along))
@@ -89,7 +81,7 @@ def _places(kind: Kind, item: Pose, shoulder: Vector, depth: float) -> Iterator[
         across = math.atan2(along[1], along[0]) + math.pi / 2
         for offset in take.offsets:
             flat = item.place * [1.0, 1.0, 0.0] + offset * along / length
-            yield flat + [0.0, 0.0, item.place[2] + max(take.height, low)], across
+            yield flat + (item.place[2] + max(take.height, low)) * UP, across
 
 
 def giving(base: Vector, forward: Vector, head: Vector, side: float) -> Iterator[Pose]:
@@ -104,4 +96,4 @@ def giving(base: Vector, forward: Vector, head: Vector, side: float) -> Iterator
         place = np.array(base) + min(far, room) * ahead + side * aside * left
         place[2] = head[2] * 0.5 + 0.05 + high  # between the waist and the chest
         for flat, down in ((0.5, 0.85), (0.8, 0.6), (0.0, 1.0)):
-            yield Pose(place, axes(flat * ahead - down * np.array([0.0, 0.0, 1.0]), left))
+            yield Pose(place, axes(flat * ahead + down * DOWN, left))

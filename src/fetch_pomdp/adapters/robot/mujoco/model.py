@@ -62,7 +62,6 @@ def world_model(robot: RobotDescription, layout: Layout) -> Any:
     place_robot(spec, robot, layout)
     spec.option.timestep = TIMESTEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 960
     _room(spec, layout)
     _table(spec, layout)
     _person(spec, layout)
@@ -164,8 +163,18 @@ def _is_under(body: Any, above: Any) -> bool:
 
 def _room(spec: Any, layout: Layout) -> None:
     mujoco, world = load("mujoco", EXTRA), spec.worldbody
-    world.add_light(pos=[layout.base[0] + 1.0, layout.base[1] - 1.0, 3.0], dir=[-0.3, 0.3, -1.0], castshadow=False)
-    world.add_light(pos=[layout.base[0] - 1.0, layout.base[1] + 1.0, 3.0], dir=[0.3, -0.3, -1.0], castshadow=False)
+    spec.visual.headlight.ambient, spec.visual.headlight.diffuse = [0.4] * 3, [0.4] * 3
+    spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 960
+    sky = mujoco.mjtBuiltin.mjBUILTIN_GRADIENT
+    spec.add_texture(
+        name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, builtin=sky, rgb1=[0.9, 0.93, 0.96], rgb2=[0.6, 0.65, 0.7],
+        width=64, height=64 * 6,
+    )  # fmt: skip
+    for side in (1.0, -1.0):
+        world.add_light(
+            type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, pos=[0.0, 0.0, 3.0], dir=[-0.3 * side, 0.3 * side, -1.0],
+            diffuse=[0.35] * 3, castshadow=False,
+        )  # fmt: skip
     grey = [0.75, 0.75, 0.72, 1.0]
     world.add_geom(
         name=FLOOR, type=mujoco.mjtGeom.mjGEOM_PLANE, size=[8.0, 8.0, 0.1], rgba=grey, group=VISIBLE_GROUP,

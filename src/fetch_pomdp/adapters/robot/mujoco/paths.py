@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -85,7 +86,7 @@ def _searched(start: Vector, end: Vector, space: Space, seconds: float) -> Vecto
         setup.solve(SLICE)
     setup.simplifySolution(SIMPLIFY)
     corners = [np.array([s[joint] for joint in range(joints)]) for s in setup.getSolutionPath().getStates()]
-    pieces = [straight(first, second) for first, second in zip(corners, corners[1:], strict=False)]
+    pieces = [straight(first, second) for first, second in pairwise(corners)]
     path = np.concatenate([pieces[0][:1], *(piece[1:] for piece in pieces)])
     return path if is_free(path, space.free) else None
 

@@ -28,9 +28,9 @@ GONE = 0.05  # m from the hand: there the person has it
 TRIES = 2  # at taking an item that is still on the table
 AT_REST = 0.02  # rad
 DROPPED, STUCK = "dropped it", "could not let go"
-POINT, ASK, REACH, DESCEND, GRASP, LIFT, CARRY, TUGGED, GIVE, RETURN, LOWER, RELEASE, RETREAT = (
-    "point", "ask", "reach", "descend", "grasp", "lift", "carry", "tug", "give", "return", "lower", "release", "retreat",
-)  # fmt: skip
+POINT, ASK, REACH, DESCEND, GRASP, LIFT = "point", "ask", "reach", "descend", "grasp", "lift"
+CARRY, TUGGED, GIVE, RETURN = "carry", "tug", "give", "return"
+LOWER, RELEASE, RETREAT = "lower", "release", "retreat"
 
 Plan = TypeVar("Plan")
 
