@@ -13,7 +13,7 @@ from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.interaction import Timing, interact, median_ray, pointing_arms
 from fetch_pomdp.core.language.answers import PAPER
-from fetch_pomdp.core.ports import Frame, Outcome, Word
+from fetch_pomdp.core.ports import Failure, Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item
 from fetch_pomdp.errors import ModelError, ObservationError
 from tests.core.scripted import Script
@@ -50,17 +50,17 @@ class Eyes:
 class Arm:
     """A robot whose actions end as told; DONE after that."""
 
-    def __init__(self, *outcomes: Outcome) -> None:
+    def __init__(self, *outcomes: Outcome | Failure) -> None:
         self.outcomes, self.done = list(outcomes), list[str]()
 
-    def _act(self, what: str) -> Outcome:
+    def _act(self, what: str) -> Outcome | Failure:
         self.done.append(what)
         return self.outcomes.pop(0) if self.outcomes else Outcome.DONE
 
-    def point(self, item: Item) -> Outcome:
+    def point(self, item: Item) -> Outcome | Failure:
         return self._act(f"point {item.id}")
 
-    def pick(self, item: Item) -> Outcome:
+    def pick(self, item: Item) -> Outcome | Failure:
         return self._act(f"pick {item.id}")
 
     def say(self, text: str) -> Outcome:
@@ -306,6 +306,13 @@ def test_a_pick_that_was_not_done_is_resumed(outcome: Outcome) -> None:
     assert [event.outcome for event in acted(events)] == [outcome, Outcome.DONE, Outcome.DONE]
     assert observed(events)[0].observation.words == ("marker",)
     assert agent.belief[3] > 0.3
+
+
+def test_a_robot_that_knows_why_it_failed_is_believed() -> None:
+    _, events = run(Script(Pick(1), Pick(3)), arm=Arm(Failure("blocked by bowl-1")))
+    first, second = acted(events)
+    assert (first.outcome, first.reason, first.done) == (Outcome.FAILED, "blocked by bowl-1", False)
+    assert (second.outcome, second.reason) == (Outcome.DONE, "")
 
 
 @pytest.mark.parametrize("outcome", [Outcome.FAILED, Outcome.STOPPED])

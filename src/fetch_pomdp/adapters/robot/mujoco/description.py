@@ -11,15 +11,11 @@ from typing import Any, Self
 from fetch_pomdp import checks
 from fetch_pomdp.checks import Point3
 from fetch_pomdp.documents import read_toml
-from fetch_pomdp.errors import InputError, MissingExtraError
+from fetch_pomdp.errors import InputError, MissingExtraError, RobotDescriptionError
 
 HERE = Path(__file__).parent
 KNOWN = ("baxter", "ur5e")
 Rotation = tuple[float, float, float, float]
-
-
-class RobotDescriptionError(InputError):
-    """A description file that describes no robot."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,8 +14,9 @@ from fetch_pomdp.adapters.robot.mujoco.world import World
 from fetch_pomdp.core.compiled import Vector
 
 STILL = 0.01  # rad/s: an arm that is slower has arrived
+FELT = 1.0  # s, for which a contact that has begun may be what holds an arm up
 SETTLE = 0.3  # s, after which it is not waited for any longer
-LOST = 0.2  # rad, by which a joint that lags is held up by something
+LOST = 0.03  # rad, by which a joint that lags is held up by something; one that moves freely lags by 0.006 at most
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +44,7 @@ class Mover:
     def __init__(self, world: World, stopped: Callable[[], bool], each_step: Callable[[], None] | None = None) -> None:
         self._world, self._stopped, self._each_step = world, stopped, each_step or (lambda: None)
         self.movements: list[Movement] = []
+        self.phase = ""  # of the movement that goes on, or went on last
 
     def follow(self, arm: str, path: Vector, doing: Doing, *, speed: float = 1.0) -> None:
         """Move an arm along a path (n, n_joints); speed: part of the robot's.
@@ -95,9 +97,9 @@ class Mover:
         log = self._world.log.contacts
         if log and log[-1].with_what == PERSON and log[-1].time == self._world.time:
             raise CannotError(f"blocked by {PERSON}")
-        lag = np.abs(self._world.lag(arm)).max()
-        if lag > LOST:
-            raise CannotError(f"blocked by {log[-1].with_what}" if log else "was held up")
+        if np.abs(self._world.lag(arm)).max() > LOST:
+            felt = log and log[-1].time > self._world.time - FELT
+            raise CannotError(f"blocked by {log[-1].with_what}" if felt else "was held up")
 
     def _command(self, arm: str, target: Target, doing: Doing) -> None:
         self._world.command(arm, target)
@@ -121,6 +123,7 @@ class Mover:
                 break
 
     def _step(self, doing: Doing) -> None:
+        self.phase = doing.phase
         self._world.step()
         self._world.log.watch(self._world.data, doing.phase, doing.target, carried=doing.carried)
         self._each_step()

@@ -217,6 +217,9 @@ class Planner:
         start, index = self._world.joints(arm), self._world.arms[arm]
         roomy = all(self._checker.blocked_by(arm, angles, FAR) is None for angles in (start, end))
         clearance = FAR if roomy else NEAR
+        culprit = None if roomy else self._checker.blocked_by(arm, start, NEAR)
+        if culprit is not None:
+            raise CannotError(_blocked(culprit))  # no plan leads away from here
         space = Space(
             index.lowest, index.highest, lambda angles: self._checker.blocked_by(arm, angles, clearance) is None,
             self._stopped,
