@@ -4,7 +4,7 @@ BIN := .venv/bin
 EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
-.PHONY: demo test lint coverage page check-all shows audit screenshots film bench picture requirements clean
+.PHONY: demo test lint coverage page check-all shows check-robot audit screenshots film bench picture requirements clean
 
 demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
@@ -40,6 +40,20 @@ check-all: test shows
 
 shows: .venv/tested
 	tests/with_postgres.sh $(BIN)/pytest -m 'browser or postgres or load' tests
+
+# The robot in MuJoCo (docs/robot.md), in an environment of its own. Of robosuite (157 MB) only Baxter's model is wanted, so what it
+# would bring along is left out.
+ROBOT := .venv-robot/bin
+check-robot: .venv-robot/installed
+	$(ROBOT)/pytest -n 2 --dist worksteal tests/adapters/robot
+	$(ROBOT)/python benchmarks/robot.py --robot baxter --tables 4 --stops 4
+	$(ROBOT)/python benchmarks/robot.py --robot ur5e --tables 4 --stops 4
+
+.venv-robot/installed: pyproject.toml requirements/robot.txt
+	@$(PYTHON) -m venv .venv-robot
+	@$(ROBOT)/pip install -q --disable-pip-version-check -r requirements/robot.txt
+	@$(ROBOT)/pip install -q --disable-pip-version-check --no-deps robosuite==1.5.2 -e .
+	@touch $@
 
 # Known holes in what is installed, asked of PyPI; not a part of the tests, for those need no network.
 audit:
@@ -80,6 +94,7 @@ requirements:
 	$(PIN) $(EXTRAS) --group dev --group browser --group bench -o requirements/bench.txt
 	$(PIN) $(EXTRAS) --group dev --group browser -c requirements/bench.txt -o requirements/test.txt
 	$(PIN) --extra speech --extra serve -c requirements/bench.txt -o requirements/run.txt
+	$(PIN) --extra robot --group robot -c requirements/bench.txt -o requirements/robot.txt
 
 clean:
-	rm -rf .venv .venv-audit node_modules .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-audit .venv-robot node_modules .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -282,18 +282,21 @@ def main() -> None:
     parser.add_argument("--tables", type=int, default=100)
     parser.add_argument("--stops", type=int, default=0)
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--out", type=Path)
+    parser.add_argument("--out", type=Path, help="JSON Lines: each table, when it is done")
     options = parser.parse_args()
     description = RobotDescription.load(options.robot)
     seeds = range(options.seed, options.seed + options.tables)
-    rows = [fetch(seed, description) for seed in seeds]
+    rows = []
+    for seed in seeds:
+        rows.append(fetch(seed, description))
+        if options.out:
+            with options.out.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(asdict(rows[-1])) + "\n")
     if rows:
         print(report(rows))
     stops = [stop(seed, description) for seed in range(options.seed, options.seed + options.stops)]
     if stops:
         print(report_stops(stops))
-    if options.out:
-        options.out.write_text(json.dumps([asdict(row) for row in rows]) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

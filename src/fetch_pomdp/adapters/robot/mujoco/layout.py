@@ -49,9 +49,10 @@ class Layout:
 def layout(scene: Scene, robot: RobotDescription, rng: Generator | None = None) -> Layout:
     """Return a layout of a scene: the robot stands across the table from the person, and faces them.
 
-    rng: draws how things are turned; without it long things point away from the person. Choice: the table's top is at
-    the height of the lowest item, for a scene does not say; a scene's heights are those of the places where items
-    stand.
+    rng: draws how things are turned; without it long things point away from the person.
+
+    Choice: a scene does not say how high the table is, nor where the robot stands. Its top is at the height of the
+    lowest item; the robot is beyond the middle of the items, as far from it as its description says.
     """
     places = np.array([item.position for item in scene.items])
     head = np.array(scene.head)

@@ -88,8 +88,8 @@ class World:
     def command(self, arm: str, target: Target) -> None:
         """Have an arm's servos follow a target.
 
-        Choice: as real arms' controllers do, it knows the torques that the movement itself needs (computed torque), and
-        the damping that the servos have, and adds both.
+        As real arms' controllers do, it knows the torques that the movement itself needs (computed torque) and the
+        servos' damping, and adds both.
         """
         index = self.arms[arm]
         self._commanded[arm] = target.angles
