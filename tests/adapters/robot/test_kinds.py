@@ -26,7 +26,8 @@ def rotated(part: Part, point: np.ndarray) -> np.ndarray:
     """A point of a part in the frame of its body."""
     w, vector = part.rotation[0], np.array(part.rotation[1:])
     turned = 2 * np.cross(vector, point)
-    return point + w * turned + np.cross(vector, turned) + np.array(part.place)
+    found: np.ndarray = point + w * turned + np.cross(vector, turned) + np.array(part.place)
+    return found
 
 
 def corners(part: Part) -> list[np.ndarray]:

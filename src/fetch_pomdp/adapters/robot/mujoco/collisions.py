@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fetch_pomdp.adapters.robot.mujoco.contacts import FIRST_ITEM, FURNITURE, ROBOT, SOMEBODY, Numbers
-from fetch_pomdp.adapters.robot.mujoco.model import EXTRA, body_of
+from fetch_pomdp.adapters.robot.mujoco.model import EVERYTHING, EXTRA, body_of
 from fetch_pomdp.adapters.robot.mujoco.world import Pose, World
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.extras import load
@@ -61,10 +61,10 @@ class CollisionChecker:
     def refresh(self, carried: Carried | None = None) -> None:
         """Take over how things are in the world now; carried: an item that goes along with a hand."""
         if self._carried is not None:
-            self._collides(self._carried.id, False)
+            self._set_bits(self._carried.id, 0, 0.0)
         self._carried = carried
         if carried is not None:
-            self._collides(carried.id, True)
+            self._set_bits(carried.id, EVERYTHING, MARGIN / 2)
         self._base = np.array(self._world.data.qpos)
 
     def blocked_by(self, arm: str, angles: Vector, clearance: Clearance, *, ignore: Collection[str] = ()) -> str | None:
@@ -134,7 +134,7 @@ class CollisionChecker:
         data.qpos[address + 3 : address + 7] = quaternion
         mujoco.mj_kinematics(self._model, data)
 
-    def _collides(self, item: str, yes: bool) -> None:
+    def _set_bits(self, item: str, bits: int, margin: float) -> None:
         geoms = self._owners.geoms(item)
-        self._model.geom_contype[geoms] = 0xFF if yes else 0
-        self._model.geom_margin[geoms] = MARGIN / 2 if yes else 0.0
+        self._model.geom_contype[geoms] = bits
+        self._model.geom_margin[geoms] = margin

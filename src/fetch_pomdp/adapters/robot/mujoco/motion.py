@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fetch_pomdp.adapters.robot.mujoco.model import PERSON
-from fetch_pomdp.adapters.robot.mujoco.planning import CannotError, StoppedError
+from fetch_pomdp.adapters.robot.mujoco.search import CannotError, StoppedError
 from fetch_pomdp.adapters.robot.mujoco.trajectory import Target, braked, held, trajectory
 from fetch_pomdp.adapters.robot.mujoco.world import World
 from fetch_pomdp.core.compiled import Vector

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import time
-from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from fetch_pomdp.adapters.robot.mujoco.collisions import FAR, ITSELF, NEAR, Carried, Clearance, CollisionChecker
+from fetch_pomdp.adapters.robot.mujoco.collisions import FAR, NEAR, Carried, Clearance, CollisionChecker
 from fetch_pomdp.adapters.robot.mujoco.grasps import giving, grasps, pointing
 from fetch_pomdp.adapters.robot.mujoco.kinematics import HandGoal, Kinematics
 from fetch_pomdp.adapters.robot.mujoco.layout import Body
-from fetch_pomdp.adapters.robot.mujoco.model import TABLE
 from fetch_pomdp.adapters.robot.mujoco.paths import Space, find_path
+from fetch_pomdp.adapters.robot.mujoco.search import NO_WAY, STRETCHED, CannotError, Search, StoppedError, blocked_by
 from fetch_pomdp.adapters.robot.mujoco.world import Pose, World
 from fetch_pomdp.core.compiled import Vector
 
@@ -23,26 +21,9 @@ LIFT = 0.12  # m, of the straight way up with it
 STRETCH = 0.01  # m, between configurations of a straight way of the hand
 FREE_BELOW = 0.02  # m of a lift in which what is lifted may be near the table
 JUMP = 0.6  # rad, of a joint between two configurations of a straight way, that is none
-SEARCH = 1.5  # s, in which a plan is looked for
 PATH = 0.3  # s, for which OMPL looks for a single path
 SEEDS = 4  # of a goal's inverse kinematics, beside where the arm is and where it rests
 SPREAD = 0.5  # rad, of these around where the arm rests
-
-COULD_NOT_REACH = "could not reach"
-NO_WAY = "found no way"
-STRETCHED = "its own reach"  # on the straight way from an item that it reaches
-
-
-class CannotError(Exception):
-    """There is no plan, or it did not work out; `reason` as a person reads it."""
-
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason
-
-
-class StoppedError(Exception):
-    """Somebody stopped the robot."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +77,7 @@ class Planner:
         self._checker.refresh(carried)
         culprit = self._checker.blocked_by(arm, end, FAR)
         if culprit is not None:
-            raise CannotError(_blocked(culprit))
+            raise CannotError(blocked_by(culprit))
         path = self._path(arm, end)
         if path is None:
             raise CannotError(NO_WAY)
@@ -219,7 +200,7 @@ class Planner:
         clearance = FAR if roomy else NEAR
         culprit = None if roomy else self._checker.blocked_by(arm, start, NEAR)
         if culprit is not None:
-            raise CannotError(_blocked(culprit))  # no plan leads away from here
+            raise CannotError(blocked_by(culprit))  # no plan leads away from here
         space = Space(
             index.lowest, index.highest, lambda angles: self._checker.blocked_by(arm, angles, clearance) is None,
             self._stopped,
@@ -230,39 +211,6 @@ class Planner:
         return path
 
 
-class Search:
-    """What came in the way of the plans that were tried, and for how long they are."""
-
-    def __init__(self, stopped: Callable[[], bool]) -> None:
-        self._stopped, self._until = stopped, time.monotonic() + SEARCH
-        self._culprits: Counter[str] = Counter()
-        self.reached = False
-
-    def over(self) -> bool:
-        """Return whether the time is up. Raises StoppedError where somebody stopped the robot."""
-        if self._stopped():
-            raise StoppedError
-        return time.monotonic() > self._until
-
-    def blocked(self, culprit: str) -> None:
-        """Count what was in the way of one plan."""
-        self._culprits[culprit] += 1
-
-    def reason(self) -> str:
-        """Return why nothing was found: what was in the way most often, if the place could be reached at all."""
-        if not self.reached:
-            return COULD_NOT_REACH
-        culprits = [culprit for culprit, _ in self._culprits.most_common()]
-        named = [culprit for culprit in culprits if culprit not in {ITSELF, TABLE, NO_WAY, STRETCHED}]
-        if named:
-            return _blocked(named[0])
-        return NO_WAY if NO_WAY in culprits else COULD_NOT_REACH
-
-
 def relative(item: Pose, hand: Pose) -> Pose:
     """Return an item's pose in the frame of a hand."""
     return Pose(hand.axes.T @ (item.place - hand.place), hand.axes.T @ item.axes)
-
-
-def _blocked(culprit: str) -> str:
-    return COULD_NOT_REACH if culprit in {ITSELF, TABLE} else f"blocked by {culprit}"

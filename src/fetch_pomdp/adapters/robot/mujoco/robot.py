@@ -13,7 +13,8 @@ import numpy as np
 
 from fetch_pomdp.adapters.robot.mujoco.collisions import Carried
 from fetch_pomdp.adapters.robot.mujoco.motion import Doing, Mover
-from fetch_pomdp.adapters.robot.mujoco.planning import CannotError, Planner, StoppedError, Take, relative
+from fetch_pomdp.adapters.robot.mujoco.planning import Planner, Take, relative
+from fetch_pomdp.adapters.robot.mujoco.search import CannotError, StoppedError
 from fetch_pomdp.adapters.robot.mujoco.world import Pose, World
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.ports import Failure, Outcome
@@ -175,14 +176,14 @@ class MujocoRobot:
         arm, item = load.carried.arm, load.carried.id
         self._say(GIVES)
         before = self._in_hand(arm, item)
-        self.world.pull(item, arm, firmly=False)
+        self.world.tug(item, arm)
         try:
             self.mover.wait(TUG, Doing(TUGGED, item))
         except StoppedError:
             self.world.let_be(item)
             raise
         slip = _apart(self._in_hand(arm, item), before)
-        self.world.pull(item, arm, firmly=True)
+        self.world.pull(item, arm)
         self.mover.release(arm, Doing(GIVE, item))
         self._load = None
         if _apart(self._in_hand(arm, item), before) < GONE:

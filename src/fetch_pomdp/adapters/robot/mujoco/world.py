@@ -110,11 +110,14 @@ class World:
         """Return how far an arm's joints are behind what was commanded last, (n_joints,) rad."""
         return self._commanded[arm] - self.joints(arm)
 
-    def pull(self, item: str, arm: str, *, firmly: bool) -> None:
-        """Have the person pull an item out of a hand; firmly, they bear its weight, too."""
-        pull = (PULL if firmly else TUG) * self.hand_pose(arm).axes[:, 2]
-        pull[2] += self._weight(item) if firmly else 0.0
-        self.data.xfrc_applied[self.model.body(body_of(item)).id, :3] = pull
+    def tug(self, item: str, arm: str) -> None:
+        """Have the person pull gently at an item in a hand."""
+        self.data.xfrc_applied[self.model.body(body_of(item)).id, :3] = TUG * self.hand_pose(arm).axes[:, 2]
+
+    def pull(self, item: str, arm: str) -> None:
+        """Have the person pull an item out of a hand, and bear its weight."""
+        weight = np.array([0.0, 0.0, self._weight(item)])
+        self.data.xfrc_applied[self.model.body(body_of(item)).id, :3] = PULL * self.hand_pose(arm).axes[:, 2] + weight
 
     def let_be(self, item: str) -> None:
         """Have the person let go of an item."""
