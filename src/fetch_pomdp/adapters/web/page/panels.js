@@ -118,8 +118,8 @@ function perceived({ observation, unknown }) {
   return parts.join("; ");
 }
 
-/** @param {Acted} event */
-function acted({ action, item, outcome, reason }) {
+/** What the robot did, and why it failed if it did and knows. @param {Acted} event */
+export function acted({ action, item, outcome, reason }) {
   const line = text(action === "point" ? "asked" : "handed", { item });
   if (outcome === "done") return line;
   const told = text(outcome === "stopped" ? "stopped" : "not_done", { action: line });
