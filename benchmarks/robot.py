@@ -58,6 +58,7 @@ class Row:
     movements: list[tuple[str, float, float]]
     simulated: float
     wall: float
+    processor: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,7 +145,7 @@ def fetch(seed: int, description: RobotDescription) -> Row:
     asked, wanted = (scene.items[int(index)] for index in rng.integers(len(scene.items), size=2))
     before = {item.id: world.item_pose(item.id).place for item in scene.items}
     robot = MujocoRobot(world, lambda _: None, seed=seed)
-    begun, clock = time.perf_counter(), world.time
+    begun, worked, clock = time.perf_counter(), time.process_time(), world.time
     pointed = reason(robot.point(asked))
     found = angles(world)
     fetched = reason(robot.pick(wanted))
@@ -155,6 +156,7 @@ def fetch(seed: int, description: RobotDescription) -> Row:
         touched=touched(world.log.contacts), plans=[(plan.phase, plan.seconds) for plan in robot.plans],
         movements=[(move.phase, move.planned, move.executed) for move in robot.mover.movements if move.completed],
         simulated=world.time - clock, wall=time.perf_counter() - begun,
+        processor=time.process_time() - worked,
     )  # fmt: skip
 
 
@@ -221,8 +223,8 @@ def report(rows: Sequence[Row]) -> str:
         f"slip at 1.5 N above 2 cm: {sum(row.slip > MOVED for row in rows)}",
         f"planning, a plan: median {np.median(each):.3f}, p95 {np.quantile(each, 0.95):.3f}, max {each.max():.2f} s; "
         f"a table: p95 {np.quantile(planning, 0.95):.2f} s",
-        f"simulation: {sum(row.simulated for row in rows) / sum(row.wall for row in rows):.1f} times faster than time, "
-        "planning included",
+        f"faster than time, planning included: {_faster(rows, 'wall'):.1f} times by the wall's clock, "
+        f"{_faster(rows, 'processor'):.1f} times by the processor's",
         f"why not: {dict(Counter(row.fetched for row in rows if row.fetched))}",
     ]  # fmt: skip
     for row in rows:
@@ -232,6 +234,10 @@ def report(rows: Sequence[Row]) -> str:
                 f"moved {row.moved:.3f}; {row.touched[:3]}"
             )
     return "\n".join([*lines, *durations(rows)])
+
+
+def _faster(rows: Sequence[Row], clock: str) -> float:
+    return sum(row.simulated for row in rows) / sum(float(getattr(row, clock)) for row in rows)
 
 
 def _with_us(text: str) -> bool:

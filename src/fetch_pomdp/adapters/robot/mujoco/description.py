@@ -79,7 +79,6 @@ class Durations:
     """Measured times, s, medians over random tables (benchmarks/robot.py)."""
 
     point: float  # from rest to pointing at an item
-    pick: float  # from rest until the person has an item
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
