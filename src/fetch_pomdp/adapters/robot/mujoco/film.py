@@ -39,7 +39,7 @@ class Film:
             raise InputError(
                 "found no such folder, expected one that is there", field="--video", source=str(path.parent)
             )
-        self._world, self._due = world, 0.0
+        self._world, self._due = world, world.time
         try:
             self._renderer: Any = mujoco.Renderer(world.model, SIZE[1], SIZE[0])
         except Exception as cause:
@@ -59,7 +59,7 @@ class Film:
         """Draw and write a picture if it is time."""
         if self._world.time < self._due:
             return
-        self._due = max(self._due + 1.0 / FPS, self._world.time - 1.0 / FPS)
+        self._due += 1.0 / FPS
         self._renderer.update_scene(self._world.data, self._camera, self._options)
         self._frames.send(np.ascontiguousarray(self._renderer.render()))
 
