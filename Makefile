@@ -4,7 +4,7 @@ BIN := .venv/bin
 EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
-.PHONY: demo test compiled lint coverage page check-all shows docs numbers audit screenshots film bench picture requirements clean
+.PHONY: demo test compiled lint coverage page check-all shows docs numbers check-robot audit screenshots film bench picture requirements clean
 
 demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
@@ -64,6 +64,20 @@ numbers: .venv/tested
 	$(BIN)/python docs/make_numbers.py
 	$(BIN)/python docs/make_reproduction.py
 
+# The robot in MuJoCo (docs/robot.md), in an environment of its own. Of robosuite (157 MB) only Baxter's model is wanted, so what it
+# would bring along is left out.
+ROBOT := .venv-robot/bin
+check-robot: .venv-robot/installed
+	$(ROBOT)/pytest -n 2 --dist worksteal tests/adapters/robot
+	$(ROBOT)/python benchmarks/robot.py --robot baxter --tables 4 --stops 4
+	$(ROBOT)/python benchmarks/robot.py --robot ur5e --tables 4 --stops 4
+
+.venv-robot/installed: pyproject.toml requirements/robot.txt
+	@$(PYTHON) -m venv .venv-robot
+	@$(ROBOT)/pip install -q --disable-pip-version-check -r requirements/robot.txt
+	@$(ROBOT)/pip install -q --disable-pip-version-check --no-deps robosuite==1.5.2 -e .
+	@touch $@
+
 # Known holes in what is installed, asked of PyPI; not a part of the tests, for those need no network.
 audit:
 	@test -x .venv-audit/bin/pip-audit || ($(PYTHON) -m venv .venv-audit && .venv-audit/bin/pip install -q --disable-pip-version-check pip-audit)
@@ -105,6 +119,7 @@ requirements:
 	$(PIN) --extra speech --extra serve -c requirements/bench.txt -o requirements/run.txt
 	$(PIN) -c requirements/bench.txt -o requirements/core.txt
 	$(PIN) --extra serve --extra study --group docs -c requirements/bench.txt -o requirements/docs.txt
+	$(PIN) --extra robot --group robot -c requirements/bench.txt -o requirements/robot.txt
 
 clean:
-	rm -rf .venv .venv-audit .venv-docs build node_modules .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-audit .venv-docs .venv-robot build node_modules .numba-cache .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -19,6 +19,7 @@ __all__ = [
     "Evidence",
     "ExactAnswers",
     "Explanation",
+    "Failure",
     "FetchPomdpError",
     "FittedValue",
     "Frame",

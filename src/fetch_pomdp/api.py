@@ -20,7 +20,7 @@ from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, SparseSampling
 from fetch_pomdp.core.planners.thresholds import Threshold, tuned
-from fetch_pomdp.core.ports import Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
+from fetch_pomdp.core.ports import Failure, Frame, Outcome, Recognizer, Robot, SkeletonSource, Word
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.core.simulation import Summary, simulate
@@ -38,6 +38,7 @@ __all__ = [
     "Evidence",
     "ExactAnswers",
     "Explanation",
+    "Failure",
     "FetchPomdpError",
     "FittedValue",
     "Frame",

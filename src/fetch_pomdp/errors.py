@@ -84,5 +84,9 @@ class MessageError(InputError):
     """A message from a page that the server does not know or allow."""
 
 
+class RobotDescriptionError(InputError):
+    """A file that describes a robot."""
+
+
 class MissingExtraError(FetchPomdpError, ImportError):
     """An optional library is not installed; the message is the line that installs it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fetch_pomdp.core.events import Acted, Event, Observed
-from fetch_pomdp.core.ports import Frame, Outcome, Word
+from fetch_pomdp.core.ports import Failure, Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item
 
 HEAD = (0.0, 0.0, 1.6)
@@ -40,20 +40,20 @@ class Eyes:
 class Arm:
     """A robot whose actions end as told; DONE after that."""
 
-    def __init__(self, *outcomes: Outcome) -> None:
+    def __init__(self, *outcomes: Outcome | Failure) -> None:
         self.outcomes, self.done = list(outcomes), list[str]()
 
-    def _act(self, what: str) -> Outcome:
+    def _act(self, what: str) -> Outcome | Failure:
         self.done.append(what)
         return self.outcomes.pop(0) if self.outcomes else Outcome.DONE
 
-    def point(self, item: Item) -> Outcome:
+    def point(self, item: Item) -> Outcome | Failure:
         return self._act(f"point {item.id}")
 
-    def pick(self, item: Item) -> Outcome:
+    def pick(self, item: Item) -> Outcome | Failure:
         return self._act(f"pick {item.id}")
 
-    def take_back(self, item: Item) -> Outcome:
+    def take_back(self, item: Item) -> Outcome | Failure:
         return self._act(f"take back {item.id}")
 
     def say(self, text: str) -> Outcome:

@@ -12,7 +12,7 @@ from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.language.answers import PAPER
-from fetch_pomdp.core.ports import Outcome
+from fetch_pomdp.core.ports import Failure, Outcome
 from fetch_pomdp.errors import ModelError
 from tests.core.scripted import Script
 from tests.core.staged import Arm, Ears, Eyes, acted, frame, observed, towards
@@ -177,6 +177,13 @@ def test_a_pick_that_was_not_done_is_resumed(outcome: Outcome) -> None:
     assert [event.outcome for event in acted(events)] == [outcome, Outcome.DONE, Outcome.DONE]
     assert observed(events)[0].observation.words == ("marker",)
     assert agent.belief[3] > 0.3
+
+
+def test_a_robot_that_knows_why_it_failed_is_believed() -> None:
+    _, events = run(Script(Pick(1), Pick(3)), arm=Arm(Failure("blocked by bowl-1")))
+    first, second = acted(events)
+    assert (first.outcome, first.reason, first.done) == (Outcome.FAILED, "blocked by bowl-1", False)
+    assert (second.outcome, second.reason) == (Outcome.DONE, "")
 
 
 @pytest.mark.parametrize("outcome", [Outcome.FAILED, Outcome.STOPPED])

@@ -86,6 +86,27 @@ def test_events_survive_a_round_trip(event: Event) -> None:
         assert found == event
 
 
+def test_a_reason_is_kept_with_a_failure() -> None:
+    event = Acted(Pick(2), Outcome.FAILED, time=2.0, reason="blocked by bowl-1")
+    line = event_to_json(event, SCENE)
+    assert line == {
+        "action": "pick", "item": "marker-1", "outcome": "failed", "reason": "blocked by bowl-1", "t": 2.0,
+    }  # fmt: skip
+    assert event_from_json(line, SCENE) == event
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ({"action": "wait", "reason": "tired"}, "reason: found 'tired', expected none: this action did not fail"),
+        ({"action": "pick", "item": "bowl-1", "outcome": "failed", "reason": 3}, "reason: found 3, expected text"),
+    ],
+)
+def test_a_reason_that_is_none_is_refused(line: dict[str, object], message: str) -> None:
+    with pytest.raises(EventError, match=message):
+        event_from_json(line, SCENE)
+
+
 headers = [
     Header(scene=SCENE, scene_name="ambiguous"),
     Header(scene=TABLE, planner="sparse", parameters={"depth": 3}, seed=7, target="pot"),

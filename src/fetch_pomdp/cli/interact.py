@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import json
 import sys
 from collections.abc import Iterator
@@ -17,6 +18,7 @@ from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
 from fetch_pomdp.cli.options import Budget, Depth, Ears, Json, ModelFile, PlannerName, SceneName, Seed, Width, loaded
+from fetch_pomdp.cli.robot import RobotName, Stage, Video, opened_robot, timing_of
 from fetch_pomdp.cli.show import show_event
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.action import Pick
@@ -75,17 +77,21 @@ def fetch(
     person: Person = None,
     order: Order = None,
     paradigm: Paradigm = None,
+    robot: RobotName = None,
+    video: Video = None,
     json_lines: Json = False,
 ) -> None:
     """Run one whole interaction: hear, see, decide, until an item is handed over.
 
     With --audio or --skeleton the person is a recording or a stream. With neither you are the person: type what you
-    would say, with @item for an item that you point at.
+    would say, with @item for an item that you point at. With --robot the arms move in MuJoCo.
     """
     table = named(loaded(scene, model, live_scene))
     parameters = {
         name: value for name, value in (("depth", depth), ("width", width), ("budget_ms", budget)) if value is not None
     }
+    if video is not None and robot is None:
+        raise InputError("a film needs a body; add --robot baxter", field="--video")
     scene_name = scene if scene in LAYOUTS else None
     if target is not None:
         table.index(target, "target")
@@ -104,7 +110,12 @@ def fetch(
         record = open_files.enter_context(EventLog.create(log, header)) if log else None
         said: list[str] = []
         timing, steps = (TYPED, sys.maxsize) if typed else (RECORDED, MOST_STEPS)
-        events = interact(agent, ConsoleRobot(said.append), words, eyes, timing=timing, most_steps=steps)
+        if robot is not None and not typed:
+            timing = dataclasses.replace(timing_of(robot), after=RECORDED.after)
+        live = STREAM in {audio, skeleton} or audio == MICROPHONE
+        stage = Stage(scene=table, say=said.append, console=console, video=video, live=live)
+        body = open_files.enter_context(opened_robot(robot, stage)) if robot else ConsoleRobot(said.append)
+        events = interact(agent, body, words, eyes, timing=timing, most_steps=steps)
         _follow(_recorded(events, record), agent, said, console, json_lines=json_lines)
 
 

@@ -55,7 +55,11 @@ def _perceived(event: Observed, agent: Agent) -> str:
 
 def _acted(event: Acted, scene: Scene) -> str:
     text = escape(str(deed(event.action, scene)))
-    return text if event.done else f"{text} ({event.outcome.value})"
+    if event.done:
+        return text
+    return (
+        f"{text} ({event.outcome.value}: {escape(event.reason)})" if event.reason else f"{text} ({event.outcome.value})"
+    )
 
 
 def show_belief(agent: Agent, console: Console) -> None:

@@ -16,6 +16,7 @@ from fetch_pomdp.cli.curves import curves, price_lists
 from fetch_pomdp.cli.options import Json, ModelFile, Seed, as_json
 from fetch_pomdp.cli.progress import trials_bar
 from fetch_pomdp.cli.reproduce import compare, fit, stories
+from fetch_pomdp.cli.robot import RobotName, with_robot
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
@@ -54,6 +55,7 @@ def study(
         Path, typer.Option(metavar="DIR", help="Folder of the trials: a new one, or one to go on with.")
     ] = FOLDER,
     model: ModelFile = None,
+    robot: RobotName = None,
     logs: Annotated[bool, typer.Option("--logs", help="Keep every interaction, event by event, in DIR/logs.")] = False,
     real_speech: Annotated[
         bool, typer.Option("--real-speech", help="Say every word with espeak-ng and hear it with PocketSphinx.")
@@ -72,6 +74,8 @@ def study(
         return
     given = {"people": people, "seed": seed, "logs": logs or None, "real_speech": real_speech or None}
     chosen = _chosen(config, model, given)
+    if robot is not None:
+        chosen = with_robot(chosen, robot)
     crew = Crew(workers=workers, backend=backend, address=address)  # type: ignore[arg-type]
     _play(chosen, out, crew)
     for ending in (".csv", ".parquet"):

@@ -32,7 +32,8 @@ class Observed:
 class Acted:
     """The robot's action ended at `time` (s); decision: why it was chosen, where that is known.
 
-    passes: of sampling, if the decision had a budget (`Agent.decide` repeats it from them); None without one.
+    passes: of sampling, if the decision had a budget (`Agent.decide` repeats it from them); None without one. reason:
+    why it failed, where the robot knows; else "".
     """
 
     action: Action
@@ -40,6 +41,7 @@ class Acted:
     decision: Decision | None = None
     time: float | None = None
     passes: int | None = None
+    reason: str = ""
 
     @property
     def done(self) -> bool:

@@ -35,7 +35,7 @@ from fetch_pomdp.core.language.names import is_name
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.planners.base import Decision
-from fetch_pomdp.core.ports import Outcome, Recognizer, Robot, SkeletonSource
+from fetch_pomdp.core.ports import Failure, Outcome, Recognizer, Robot, SkeletonSource
 from fetch_pomdp.core.senses import Pace, Senses, StreamPace
 from fetch_pomdp.core.simulation import MOST_STEPS
 from fetch_pomdp.errors import ModelError
@@ -164,8 +164,9 @@ class _Interaction:
         self._reply(observed, waited=isinstance(acted.action, Wait))
         yield observed
 
-    def _acted(self, decision: Decision, outcome: Outcome) -> Acted:
-        acted = Acted(decision.action, outcome, decision, self._now, decision.passes)
+    def _acted(self, decision: Decision, result: Outcome | Failure) -> Acted:
+        outcome, reason = (Outcome.FAILED, result.reason) if isinstance(result, Failure) else (result, "")
+        acted = Acted(decision.action, outcome, decision, self._now, decision.passes, reason)
         self._agent.take(acted)
         return acted
 
@@ -218,7 +219,7 @@ class _Interaction:
             self._robot.say(LISTENING)
             self._silence = 0.0
 
-    def _carry_out(self, action: Action) -> Outcome:
+    def _carry_out(self, action: Action) -> Outcome | Failure:
         item = self._agent.item(action)
         if item is None:
             return Outcome.DONE

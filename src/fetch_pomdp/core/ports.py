@@ -48,6 +48,13 @@ class Outcome(Enum):
     RETURNED = "returned"  # it was done, and the person gave the item back
 
 
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """An Outcome.FAILED of a robot that knows why: "could not reach", "dropped it", "blocked by cup-2"."""
+
+    reason: str
+
+
 class Recognizer(Protocol):
     """Ears: turn sound into timed words."""
 
@@ -84,19 +91,19 @@ class SkeletonSource(Protocol):
 class Robot(Protocol):
     """Arm and voice. Each call returns when the movement or the speech has ended."""
 
-    def point(self, item: Item) -> Outcome:
+    def point(self, item: Item) -> Outcome | Failure:
         """Point at an item and ask "this one?"."""
         ...
 
-    def pick(self, item: Item) -> Outcome:
+    def pick(self, item: Item) -> Outcome | Failure:
         """Hand an item over."""
         ...
 
-    def take_back(self, item: Item) -> Outcome:
+    def take_back(self, item: Item) -> Outcome | Failure:
         """Take an item back that was handed over, and put it where it was."""
         ...
 
-    def say(self, text: str) -> Outcome:
+    def say(self, text: str) -> Outcome | Failure:
         """Say something that is no question about an item."""
         ...
 

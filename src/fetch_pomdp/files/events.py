@@ -43,7 +43,7 @@ def event_from_json(data: Mapping[str, Any], scene: Scene) -> Event:
 
 
 def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
-    checks.known(data, ("action", "item", "outcome", "t", "passes"), "field", EventError)
+    checks.known(data, ("action", "item", "outcome", "reason", "t", "passes"), "field", EventError)
     name = data["action"]
     if name not in ACTIONS:
         raise ActionError(f"found {shown(name)}, expected one of {', '.join(ACTIONS)}", field="action")
@@ -52,6 +52,11 @@ def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
     outcome = data.get("outcome", "done")
     if outcome not in OUTCOMES:
         raise EventError(f"found {shown(outcome)}, expected one of {', '.join(OUTCOMES)}", field="outcome")
+    reason = data.get("reason", "")
+    if reason and outcome != "failed":
+        raise EventError(f"found {shown(reason)}, expected none: this action did not fail", field="reason")
+    if not isinstance(reason, str):
+        raise EventError(f"found {shown(reason)}, expected text", field="reason")
     passes = data.get("passes")
     if passes is not None and (not isinstance(passes, int) or isinstance(passes, bool) or passes < 1):
         raise EventError(f"found {shown(passes)}, expected a whole number from 1", field="passes")
@@ -60,7 +65,7 @@ def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
         checks.required(data, ("item",), EventError)
         item = item_index(data["item"], scene, "item")
         action = Point(item) if name == "point" else Pick(item)
-    return Acted(action, Outcome(outcome), time=_time(data.get("t"), "t"), passes=passes)
+    return Acted(action, Outcome(outcome), time=_time(data.get("t"), "t"), passes=passes, reason=reason)
 
 
 def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
@@ -147,6 +152,8 @@ def _acted_to_json(event: Acted, scene: Scene) -> dict[str, Any]:
     fields = action_to_json(event.action, scene)
     if not event.done:
         fields["outcome"] = event.outcome.value
+    if event.reason:
+        fields["reason"] = event.reason
     return fields if event.passes is None else {**fields, "passes": event.passes}
 
 

@@ -11,7 +11,7 @@ from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.live.inbox import Inbox
 from fetch_pomdp.core.live.updates import State
 from fetch_pomdp.core.live.vitals import Vitals
-from fetch_pomdp.core.ports import Outcome, Robot
+from fetch_pomdp.core.ports import Failure, Outcome, Robot
 from fetch_pomdp.core.scene import Item
 
 logger = logging.getLogger(__name__)
@@ -32,11 +32,11 @@ class Body:
         self._robot, self._inbox, self._vitals, self._answers = robot, inbox, vitals, answers
         self._picking = False
 
-    def point(self, item: Item) -> Outcome:
+    def point(self, item: Item) -> Outcome | Failure:
         """Point at an item and ask."""
         return self._carry_out(lambda: self._robot.point(item))
 
-    def pick(self, item: Item) -> Outcome:
+    def pick(self, item: Item) -> Outcome | Failure:
         """Hand an item over, unless there are objections, also such as came while the robot decided."""
         self._picking = True
         try:
@@ -44,11 +44,11 @@ class Body:
         finally:
             self._picking = False
 
-    def take_back(self, item: Item) -> Outcome:
+    def take_back(self, item: Item) -> Outcome | Failure:
         """Take an item back that was handed over."""
         return self._carry_out(lambda: self._robot.take_back(item))
 
-    def say(self, text: str) -> Outcome:
+    def say(self, text: str) -> Outcome | Failure:
         """Say something."""
         return self._carry_out(lambda: self._robot.say(text))
 
@@ -66,9 +66,9 @@ class Body:
         heard = pending.words + (pending.partial or ())
         return self._answers.objects([text for word in heard for text in tokenize(word.text)])
 
-    def _carry_out(self, action: Callable[[], Outcome]) -> Outcome:
+    def _carry_out(self, action: Callable[[], Outcome | Failure]) -> Outcome | Failure:
         try:
-            outcome = action()
+            outcome: Outcome | Failure = action()
         except Exception:
             logger.exception("the robot broke")
             outcome = Outcome.FAILED

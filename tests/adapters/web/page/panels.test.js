@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { open } from "./browser.js";
-import { leaders } from "#page/panels.js";
+import { acted, leaders } from "#page/panels.js";
 import { setLanguage } from "#page/texts.js";
 
 beforeEach(() => {
@@ -22,4 +22,11 @@ test("of many, three are named", () => {
     leaders({ a: 0.22, b: 0.21, c: 0.2, d: 0.19, e: 0.18 }),
     "now most likely: a 22%, b 21%, c 20%, and 2 more",
   );
+});
+
+test("what the robot could not do is told with its reason, where it knows one", () => {
+  /** @type {import("#page/messages.js").Acted} */
+  const failed = { type: "action", action: "pick", item: "cup-1", outcome: "failed" };
+  assert.match(acted(failed), /cup-1.*: it failed$/);
+  assert.match(acted({ ...failed, reason: "blocked by cup-2" }), /cup-1.*: it failed \(blocked by cup-2\)$/);
 });

@@ -75,6 +75,7 @@ export interface Acted extends TalkState {
   action: ActionName;
   item: string;
   outcome: "done" | "failed" | "stopped" | "returned";
+  reason?: string;
 }
 export interface Say {
   type: "say";

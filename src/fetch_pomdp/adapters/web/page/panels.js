@@ -119,10 +119,11 @@ function perceived({ observation, unknown, anew }) {
   return parts.join("; ");
 }
 
-/** @param {Acted} event */
-function acted({ action, item, outcome }) {
+/** What the robot did, and why it failed if it did and knows. @param {Acted} event */
+export function acted({ action, item, outcome, reason }) {
   if (outcome === "returned") return text("returned", { item });
   const line = text(action === "point" ? "asked" : "handed", { item });
   if (outcome === "done") return line;
-  return text(outcome === "stopped" ? "stopped" : "not_done", { action: line });
+  const told = text(outcome === "stopped" ? "stopped" : "not_done", { action: line });
+  return reason ? `${told} (${reason})` : told;
 }
