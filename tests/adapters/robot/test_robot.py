@@ -104,6 +104,16 @@ def test_it_points_at_what_it_asks_about(name: str) -> None:
     assert not stage.world.log.contacts
 
 
+def test_what_is_given_back_lies_where_it_was_and_can_be_fetched_again() -> None:
+    stage = Stage()
+    assert stage.robot.pick(BOWL) is Outcome.DONE
+    assert stage.moved() > 0.2
+    assert stage.robot.take_back(BOWL) is Outcome.DONE
+    assert stage.moved() < 0.005
+    assert stage.robot.pick(BOWL) is Outcome.DONE
+    assert [given.item for given in stage.robot.given] == [BOWL.id] * 2
+
+
 @pytest.mark.parametrize("name", ROBOTS)
 @pytest.mark.parametrize("item", [MARKER, SPOON, BOWL], ids=lambda item: item.id)
 def test_it_fetches_by_friction(name: str, item: Item) -> None:
