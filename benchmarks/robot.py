@@ -3,13 +3,15 @@
     python benchmarks/robot.py --robot baxter --tables 300 --seed 1000
 
 Each table has six cups, markers, bowls and spoons in random places, turned at random. The robot asks about one item and
-then fetches another, as in an interaction; before a fresh table it is stopped at a random moment of a fetch.
+then fetches another, as in an interaction. With --stops it is also stopped, at as many tables, at a random moment of a
+fetch. Exits with 1 where it falls short of its aims.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import sys
 import time
 from collections import Counter
 from collections.abc import Sequence
@@ -281,6 +283,21 @@ def report_stops(stops: Sequence[Stop]) -> str:
     return "\n".join(lines)
 
 
+def short_of_aims(rows: Sequence[Row], stops: Sequence[Stop]) -> list[str]:
+    """Return which aims were missed: pointing 99 %, fetching 95 %, no contact, nothing moved, every stop in 0.2 s."""
+    both: list[Row | Stop] = [*rows, *stops]
+    stopped = [one for one in stops if not one.phase.startswith("not")]
+    aims = {
+        "99 % within 1.5 degrees": np.mean([not row.pointed and row.angle <= 1.5 for row in rows] or [True]) >= 0.99,
+        "95 % fetched": np.mean([not row.fetched for row in rows] or [True]) >= 0.95,
+        "no contact with table or person": not any(_with_us(text) for one in both for text in one.touched),
+        "no other item moved by 2 cm": all(one.moved <= MOVED for one in both),
+        "still within 0.2 s": all(one.still <= 0.2 for one in stopped),
+        "put back within 2 cm": all(not one.rested and one.back <= MOVED for one in stopped),
+    }
+    return [name for name, met in aims.items() if not met]
+
+
 def main() -> None:
     """Measure, and print what was found."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -303,6 +320,8 @@ def main() -> None:
     stops = [stop(seed, description) for seed in range(options.seed, options.seed + options.stops)]
     if stops:
         print(report_stops(stops))
+    if missed := short_of_aims(rows, stops):
+        sys.exit(f"missed: {', '.join(missed)}")
 
 
 if __name__ == "__main__":
