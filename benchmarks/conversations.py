@@ -1,7 +1,7 @@
 """Spoken conversations with the robot, from sound to the item handed over: in quiet, in noise, among others who talk,
 and in an echoing room.
 
-    python benchmarks/conversations.py [--half held-out] [--count 120] [--quick] [--json] [--cache FOLDER]
+    python benchmarks/conversations.py [--half held-out] [--count 100] [--quick] [--json] [--cache FOLDER]
 
 A synthetic voice asks for an item, answers the robot's questions by what it wants, and asks again when the robot says
 that it listens. The ears, the belief and the robot's decisions are those of `fetch-pomdp fetch --audio`; only the
@@ -179,7 +179,8 @@ def rooms(half: Half, folder: Path) -> Iterator[Room]:
 
 def table(results: Mapping[str, Sequence[Result]]) -> str:
     """Return the results as a table in Markdown."""
-    lines = ["| room | right | wrong | nothing | against a no | questions | time | of a core |", "|---" * 8 + "|"]
+    head = "| room | conversations | right | wrong | nothing | against a no | questions | time | of a core |"
+    lines = [head, "|---" * 9 + "|"]
     for name, row in results.items():
         count = len(row)
         right = sum(result.right for result in row)
@@ -188,7 +189,7 @@ def table(results: Mapping[str, Sequence[Result]]) -> str:
         against = sum(result.against_no for result in row)
         means = (np.mean([getattr(result, name) for result in row]) for name in ("questions", "seconds", "spent"))
         asked, seconds, spent = map(float, means)
-        lines.append(f"| {name} | {shares} | {against} | {asked:.1f} | {seconds:.0f} s | {spent:.1f} s |")
+        lines.append(f"| {name} | {count} | {shares} | {against} | {asked:.1f} | {seconds:.0f} s | {spent:.1f} s |")
     return "\n".join(lines)
 
 
@@ -201,7 +202,7 @@ def main() -> int:
     """Run the benchmark; 2 if a program that speaks is missing."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--half", choices=list(HALVES), default="held-out")
-    parser.add_argument("--count", type=int, default=120, help="conversations in each room")
+    parser.add_argument("--count", type=int, default=100, help="conversations in each room")
     parser.add_argument("--quick", action="store_true", help="12 conversations in each room")
     parser.add_argument("--room", action="append", help="this room alone; may be given again")
     parser.add_argument("--json", action="store_true", help="print JSON, a line a conversation")
