@@ -117,3 +117,5 @@ NOUNS = frozenset(tokenize("one ones thing item side corner"))
 NEGATORS = frozenset(tokenize("not isnt wasnt aint arent"))
 FOLLOWERS = frozenset(tokenize("on next in at with near by behind beside under above below left right to of"))
 ADVERBS = frozenset(tokenize("quite really so the exactly"))  # between a negator and what it denies
+# Words that say no by themselves, and before more words belong to these.
+DESCRIBING = frozenset({"not", "other", "another"})

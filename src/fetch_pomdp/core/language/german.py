@@ -107,3 +107,5 @@ NOUNS = frozenset(tokenize("teil ding seite ecke"))
 NEGATORS = frozenset(tokenize("nicht kein keine"))
 FOLLOWERS = frozenset(tokenize("neben hinter vor mit auf unter ueber bei links rechts von im am"))
 ADVERBS = frozenset(tokenize("ganz wirklich so genau der die das den"))
+# Words that say no by themselves, and before more words belong to these.
+DESCRIBING = frozenset({"nicht", "andere", "anderen", "anderer", "anderes"})

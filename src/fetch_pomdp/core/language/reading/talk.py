@@ -16,13 +16,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fetch_pomdp.core.compiled import Vector
+from fetch_pomdp.core.language import english, german
 from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
 from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader
 from fetch_pomdp.core.language.reading.tokens import STOP, words_of
 from fetch_pomdp.core.scene import Scene
 
-DESCRIBING = frozenset({"not", "other", "another", "nicht", "andere", "anderen", "anderer", "anderes"})
+DESCRIBING = english.DESCRIBING | german.DESCRIBING
 
 
 @dataclass(frozen=True, slots=True, eq=False)
