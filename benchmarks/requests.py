@@ -39,7 +39,7 @@ from fetch_pomdp.study.requests.scores import Score, groups, score
 
 P_TRUTH = 0.97  # of the person's answers
 MOST_STEPS = 30
-UNTIL = (0.5, 0.6, 0.7, 0.8, 0.88, 0.9)
+UNTIL = (0.5, 0.6, 0.7, 0.8, 0.87, 0.9)
 
 
 def left_out(corpus: Corpus, steps: int) -> list[Vector]:
