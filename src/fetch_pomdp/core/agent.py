@@ -35,7 +35,7 @@ from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.core.turns import SILENT, StepChances, constant_chances
+from fetch_pomdp.core.turns import NO, YES, StepChances, constant_chances
 from fetch_pomdp.errors import ActionError, ObservationError, PlannerError
 
 
@@ -181,7 +181,7 @@ class Agent:
         self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
         self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase, asked=self.asked)
         self._acted = Wait()
-        answered = observations.meant(observation, self.problem).answer != SILENT
+        answered = observations.meant(observation, self.problem).answer in (YES, NO)
         self._evidence = self._evidence.plus(parts, answered=answered)
         self._steps += 1
 

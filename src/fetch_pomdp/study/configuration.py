@@ -106,8 +106,13 @@ def to_plain(study: Study) -> dict[str, Any]:
         del layout["answers"]
         if answers := scene.answers.to_mapping():  # without any, a study is what it was before there were any
             layout["answers"] = answers
-        if scene.model.turns is None:  # likewise
-            del layout["model"]["turns"]
+        for fields_of, unset in (
+            (layout["model"], "turns"),
+            (layout, "robot"),
+            *((item, "facing") for item in layout["items"]),
+        ):
+            if fields_of[unset] is None:  # likewise
+                del fields_of[unset]
     plain: dict[str, Any] = json.loads(json.dumps(fields))
     return plain
 

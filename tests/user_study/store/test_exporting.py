@@ -13,7 +13,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fetch_pomdp.core.events import Event, Observed
+from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.ports import Outcome
 from fetch_pomdp.errors import StoreError
 from fetch_pomdp.files.checking import checked
 from fetch_pomdp.files.recordings import read_recording
@@ -37,6 +38,10 @@ def in_order(happened: list[Event]) -> list[Event]:
     for event in happened:
         if isinstance(event, Observed) and event.words and not event.observation.words:
             continue  # an utterance of null is that of its words
+        if (isinstance(event, Observed) and event.anew) or (
+            isinstance(event, Acted) and event.outcome is Outcome.RETURNED
+        ):
+            continue  # nothing follows a hand-over
         kept.append(event)
         if ends(event):
             break
