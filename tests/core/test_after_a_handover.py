@@ -159,6 +159,22 @@ def test_a_second_request_begins_anew() -> None:
     assert agent.asked is None
 
 
+@pytest.mark.parametrize(
+    ("said", "anew"),
+    [
+        ("hand me the other marker", True), ("and now the other one", True), ("gib mir auch den anderen", True),
+        ("the other one", False), ("no give me the other one", False), ("not that one i want the other", False),
+        ("ich will den anderen nicht den", False), ("wrong one hand me the other", False),
+    ],
+)  # fmt: skip
+def test_another_one_is_wanted_beside_the_first_or_in_its_place(said: str, anew: bool) -> None:
+    ears = Ears(*((word, 0.1 + 0.05 * place) for place, word in enumerate(said.split())))
+    _, arm, events = run(Script(Pick(2), Pick(3)), ears)
+    assert observed(events)[0].anew is anew
+    assert ("take back marker-1" in arm.done) is not anew
+    assert arm.done[-1] == "pick marker-2"
+
+
 def test_yes_beside_a_second_request_is_no_answer_to_the_last_question() -> None:
     ears = Ears(("yes", 2.5), ("yes", 3.2), ("spoon", 3.4))
     agent, _, events = run(Script(Point(2), Pick(2), Wait()), ears)

@@ -29,7 +29,7 @@ from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.hearing import texts, understood
-from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader
+from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader, asks_for_another
 from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.names import is_name
 from fetch_pomdp.core.language.unigram import split
@@ -183,13 +183,15 @@ class _Interaction:
             observed = self._listened(self._timing.wait, After.STOPPED)
             words, ray = texts(observed.words), observed.observation.ray
             silence = 0.0 if words else silence + self._timing.wait
-            if self._answers.read(words, After.STOPPED).meaning is Meaning.NO:
+            objects = self._answers.read(words, After.STOPPED).meaning is Meaning.NO
+            if objects and not asks_for_another(words):
                 yield self._taken_back(handed, observed)
                 self._agent.take(observed)
                 yield observed
                 return
             asked = understood(observed.words, self._answers, After.NOTHING, ray)
-            if split(asked.words, self._agent.problem).base or (ray is not None and self._lowered):
+            more = objects or split(asked.words, self._agent.problem).base
+            if more or (ray is not None and self._lowered):
                 begun = dataclasses.replace(observed, observation=asked, anew=True)
                 self._agent.take(begun)
                 yield begun

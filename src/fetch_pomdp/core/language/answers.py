@@ -35,7 +35,10 @@ DETERMINERS = english.DETERMINERS | german.DETERMINERS
 FOLLOWERS = english.FOLLOWERS | german.FOLLOWERS | english.NOUNS | german.NOUNS
 NEGATORS = english.NEGATORS | german.NEGATORS
 ADVERBS = english.ADVERBS | german.ADVERBS
+REQUESTS = english.REQUESTS | german.REQUESTS
+OTHERS = english.OTHERS | german.OTHERS
 
+DENYING = (frozenset(NEGATIVE) | STOPS | NEGATORS | {"nein", "falsch"}) - OTHERS
 DECISIVE = frozenset({Meaning.YES, Meaning.NO, Meaning.UNSURE, Meaning.CANCEL})
 DENIALS = frozenset({Meaning.NO, Meaning.OBJECT})
 EVERY = frozenset(Meaning)
@@ -93,6 +96,12 @@ class PaperAnswers:
 
 
 PAPER = PaperAnswers()
+
+
+def asks_for_another(words: Sequence[str]) -> bool:
+    """Return whether somebody who got an item wants another beside it: "and now the other one", "give me another"."""
+    said = {plain(word) for word in words}
+    return not said.isdisjoint(OTHERS) and not said.isdisjoint(REQUESTS) and said.isdisjoint(DENYING)
 
 
 @dataclass(frozen=True, slots=True)

@@ -109,7 +109,12 @@ ENGLISH: Mapping[Entry, str] = {
 }
 HESITATIONS = frozenset(tokenize("um umm uh uhm er erm eh ehm em hm hmm mm ah oh m"))
 # What may stand around an answer that is said alone.
-AROUND = frozenset(tokenize("well so please thanks thank you and but then now actually robot hey really very"))
+AROUND = frozenset(
+    tokenize("well so please thanks thank you and but then now actually robot hey really very much cheers bye goodbye")
+)
+# With these "the other one" asks for another item, and does not deny the one that was handed over.
+REQUESTS = frozenset(tokenize("give hand get bring pass fetch want need like also too and now next"))
+OTHERS = frozenset(tokenize("other another"))
 DETERMINERS = frozenset(
     tokenize("the a an that this these those my your his her its our their some any which on to in at")
 )

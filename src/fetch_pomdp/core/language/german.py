@@ -97,6 +97,8 @@ GERMAN: Mapping[Entry, str] = {
     """,
 }
 HESITATIONS = frozenset(tokenize("aeh aehm oeh oehm ae oe ach och"))
+REQUESTS = frozenset(tokenize("gib hol bring reich will moechte brauche auch und jetzt noch"))
+OTHERS = frozenset(tokenize("andere anderen anderer anderes"))
 AROUND = frozenset(tokenize("also na naja tja bitte danke dann und aber jetzt mal so roboter schoen nun doch du sehr"))
 DETERMINERS = frozenset(
     tokenize(
