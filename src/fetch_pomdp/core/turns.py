@@ -194,7 +194,7 @@ class Phases(NamedTuple):
     following: Integers  # (phases, 2 kinds of step, 2 words heard, 2 pointing seen, 5 answers), the next phase
     alike: Integers  # (phases,), number of the group of phases that a fitted value takes for one
     begun: Integers  # (phases,), 0 where nobody has spoken or pointed yet, so that there is nothing to decide
-    awaited: Integers  # (phases,), 1 where an answer may still come
+    awaited: Integers  # (phases,), 1 where an answer is to be expected
     late: Integers  # (phases,), how often the question was asked that nobody has answered; 0 where none is late
 
 
@@ -239,7 +239,7 @@ def phases_of(turns: Turns) -> Phases:
         following,
         np.array([groups[name] for name in names]),
         np.array([int(talk is not UNBEGUN) for talk, _ in states]),
-        np.array([int(question.kind == "open") for _, question in states]),
+        np.array([int(question.kind == "open" and not _is_late(question, turns)) for _, question in states]),
         np.array(late),
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.random import Generator
@@ -14,7 +15,10 @@ from fetch_pomdp.core.planners.base import Decision, action_of, checked_asked, p
 from fetch_pomdp.core.planners.kernels import NOBODY, leading
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import simulate
+from fetch_pomdp.core.turns import MOST_ASKED
 from fetch_pomdp.errors import PlannerError
+
+Limits: TypeAlias = tuple[float, float, float]
 
 PICKS = (0.0, 0.2, 0.3, 0.4, 0.45, *(0.5 + 0.02 * step for step in range(25)))
 PAIRS = (*(0.4 + 0.03 * step for step in range(20)), 1.1)
@@ -26,7 +30,8 @@ HALVINGS = ((400, 60, 0.01), (2_000, 16, 0.01), (8_000, 6, 0.01), (20_000, 1, 0.
 @dataclass(frozen=True, slots=True)
 class Threshold:
     """Picks the likeliest item from belief `pick` on; else waits while the answer to a question about an item of belief
-    above `hold` is out; else asks about the likeliest from a belief of the leading two of `pair` on; else waits.
+    above `hold` is out; else asks about the likeliest from a belief of the leading two of `pair` on; else waits. Before
+    live people, what nobody has answered for long is out no more; after three such questions it picks.
 
     The defaults are one setting for both scenes of the study; `tuned` finds better ones. A limit above 1 is never
     reached. It values picks alone. Raises PlannerError for a limit that is no number from 0 to 2.
@@ -52,7 +57,8 @@ class Threshold:
     ) -> Decision:
         """Choose by rule."""
         probabilities = belief.probabilities
-        action = ruled(probabilities, checked_asked(probabilities, asked, problem), self.pick, self.pair, self.hold)
+        limits, late = (self.pick, self.pair, self.hold), int(problem.tables.late[phase])
+        action = ruled(probabilities, checked_asked(probabilities, asked, problem, phase), limits, late)
         return Decision(action_of(action, problem), np.nan, unvalued(problem), pick_values(probabilities, problem))
 
     def decide_many(
@@ -60,10 +66,12 @@ class Threshold:
     ) -> Integers:
         """Choose an action for every belief, on all cores; see `base.decide_many`."""
         actions = np.empty(len(beliefs), dtype=np.int64)
+        late = problem.tables.late[np.zeros(len(beliefs), dtype=np.int64) if phases is None else phases]
 
         def share(begin: int, end: int) -> None:
             part = slice(begin, end)
-            _ruled_many(beliefs[part], asked[part], self.pick, self.pair, self.hold, actions[part])
+            limits = (self.pick, self.pair, self.hold)
+            _ruled_many(beliefs[part], asked[part], limits, late[part], actions[part])
 
         on_all_cores(share, len(beliefs))
         return actions
@@ -91,17 +99,18 @@ def tuned(problem: Problem, seed: int) -> Threshold:
 
 
 @lean
-def ruled(belief: Vector, asked: int, pick: float, pair: float, hold: float) -> int:
-    """Return the action of three limits, as in `planners.base`."""
+def ruled(belief: Vector, asked: int, limits: Limits, late: int) -> int:
+    """Return the action of three limits, as in `planners.base`. late: questions that nobody has answered for long."""
+    pick, pair, hold = limits
     top = leading(belief)
-    if top.b1 >= pick:
+    if top.b1 >= pick or late >= MOST_ASKED:
         return len(belief) + top.first
-    if asked != NOBODY and belief[asked] > hold:
+    if asked != NOBODY and belief[asked] > hold and late == 0:
         return NOBODY
     return top.first if top.b1 + top.b2 >= pair else NOBODY
 
 
 @compiled
-def _ruled_many(beliefs: Vector, asked: Integers, pick: float, pair: float, hold: float, actions: Integers) -> None:
+def _ruled_many(beliefs: Vector, asked: Integers, limits: Limits, late: Integers, actions: Integers) -> None:
     for index in range(len(beliefs)):
-        actions[index] = ruled(beliefs[index], asked[index], pick, pair, hold)
+        actions[index] = ruled(beliefs[index], asked[index], limits, late[index])

@@ -13,11 +13,12 @@ import numpy as np
 import pytest
 from numpy.random import default_rng
 
-from fetch_pomdp.core.action import Pick, Point
+from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.live.person import LIVE_MODEL, live_scene
 from fetch_pomdp.core.planners.base import Decision
+from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.simulation import Interactions, played_out
@@ -121,3 +122,22 @@ def test_a_person_who_only_says_what_is_asked_three_times() -> None:
     assert unanswered == [0, 1, 2]
     assert agent.unanswered == 3
     assert isinstance(agent.decide().action, Pick)
+
+
+@pytest.mark.parametrize("name", ["exact", "threshold", "sparse", "always"])
+def test_no_planner_that_asks_leaves_somebody_waiting_who_does_not_answer(name: str) -> None:
+    """Steps until it asks again, and until it picks: a question is late after five quiet ones."""
+    agent = Agent(live_scene("ambiguous"), planner_named(name))
+    agent.observe("hand me the marker")
+    done = []
+    for step in range(30):
+        action = agent.act()
+        if not isinstance(action, Wait):
+            done.append((type(action), step))
+        if isinstance(action, Pick):
+            break
+        agent.observe("")
+    assert done[0] == (Point, 0)
+    assert done[-1][0] is Pick
+    assert 5 <= done[1][1] <= 7
+    assert len(done) <= 4
