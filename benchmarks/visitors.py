@@ -63,8 +63,13 @@ class Interaction:
     @property
     def picked(self) -> str | None:
         """The item that was handed over, if one was."""
-        ended = self.messages("ended")
-        return ended[-1].message["picked"] if ended else None
+        given = [received.message for received in self.messages("action") if is_hand_over(received.message)]
+        return given[-1]["item"] if given else None
+
+
+def is_hand_over(message: Message) -> bool:
+    """Whether a message tells that an item was handed over; the robot then listens on."""
+    return message["type"] == "action" and message["action"] == "pick" and message["outcome"] == "done"
 
 
 class Visitor:
@@ -96,7 +101,7 @@ class Visitor:
                 async for text in line:
                     interaction.received.append(Received(time.monotonic(), json.loads(text)))
                     self.here.set()
-                    if interaction.received[-1].message["type"] == "ended":
+                    if is_hand_over(interaction.received[-1].message):
                         break
             finally:
                 acting.cancel()
