@@ -69,7 +69,7 @@ class Interaction:
 
 def is_hand_over(message: Message) -> bool:
     """Whether a message tells that an item was handed over; the robot then listens on."""
-    return message["type"] == "action" and message["action"] == "pick" and message["outcome"] == "done"
+    return bool(message["type"] == "action" and message["action"] == "pick" and message["outcome"] == "done")
 
 
 class Visitor:
