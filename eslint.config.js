@@ -4,7 +4,7 @@ import globals from "globals";
 const PAGE = "src/fetch_pomdp/adapters/web/page";
 
 export default [
-  { ignores: ["**/vendor/", ".venv/", "build/", "**/*.d.ts"] },
+  { ignores: ["**/vendor/", ".venv*/", "build/", "**/*.d.ts"] },
   js.configs.recommended,
   {
     rules: {
