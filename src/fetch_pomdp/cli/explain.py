@@ -12,7 +12,7 @@ from fetch_pomdp.cli.show import MOST_BARS, show_event
 from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted
-from fetch_pomdp.core.explanation import Alternative, worth
+from fetch_pomdp.core.explanation import ValuedAction, worth
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.files.decisions import named_odds
@@ -27,7 +27,7 @@ def show_decision(decision: Decision, agent: Agent, console: Console, *, explain
     if not explained or why is None:
         return
     console.print(Padding(_values(decision, agent), INDENT))
-    gain = Alternative(why.question.action, why.gain, why.gain_error)
+    gain = ValuedAction(why.question.action, why.gain, why.gain_error)
     for name, option in (("waiting is worth", why.wait), ("the best question is expected to gain", gain)):
         if option.valued:
             console.print(Padding(f"{name} {_with_error(option, agent.scene)}", INDENT))
@@ -43,8 +43,8 @@ def _values(decision: Decision, agent: Agent) -> Table:
         table.add_column(title, justify="right")
     errors = np.zeros(len(decision.point)) if decision.point_error is None else decision.point_error
     for index in _shown(decision, agent):
-        asking = Alternative(Point(index), float(decision.point[index]), float(errors[index]))
-        picking = Alternative(Pick(index), float(decision.pick[index]), 0.0)
+        asking = ValuedAction(Point(index), float(decision.point[index]), float(errors[index]))
+        picking = ValuedAction(Pick(index), float(decision.pick[index]), 0.0)
         worths = (_with_error(option, agent.scene) for option in (asking, picking))
         table.add_row(escape(agent.scene.items[index].id), f"{agent.belief[index]:.1%}", *worths)
     return table
@@ -71,7 +71,7 @@ def _log_odds(item: int, others: list[int], agent: Agent) -> Table:
     return table
 
 
-def _with_error(option: Alternative, scene: Scene) -> str:
+def _with_error(option: ValuedAction, scene: Scene) -> str:
     if not option.valued:
         return "-"
     error = f" ± {worth(option.error, scene)}" if option.error else ""

@@ -10,7 +10,7 @@ from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.evidence import Evidence
-from fetch_pomdp.core.explanation import AS_LIKELY, Alternative, Explanation, Rival
+from fetch_pomdp.core.explanation import AS_LIKELY, Explanation, Rival, ValuedAction
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.scene import Scene
 
@@ -68,21 +68,21 @@ def _best(values: Vector, fallback: int) -> int:
     return best
 
 
-def _chosen(decision: Decision) -> Alternative:
+def _chosen(decision: Decision) -> ValuedAction:
     if isinstance(decision.action, Wait):
         return _wait(decision)
     item = decision.action.item
     return _question(decision, item) if isinstance(decision.action, Point) else _pick(decision, item)
 
 
-def _wait(decision: Decision) -> Alternative:
-    return Alternative(Wait(), float(decision.wait), float(decision.wait_error))
+def _wait(decision: Decision) -> ValuedAction:
+    return ValuedAction(Wait(), float(decision.wait), float(decision.wait_error))
 
 
-def _question(decision: Decision, item: int) -> Alternative:
+def _question(decision: Decision, item: int) -> ValuedAction:
     error = 0.0 if decision.point_error is None else float(decision.point_error[item])
-    return Alternative(Point(item), float(decision.point[item]), error)
+    return ValuedAction(Point(item), float(decision.point[item]), error)
 
 
-def _pick(decision: Decision, item: int) -> Alternative:
-    return Alternative(Pick(item), float(decision.pick[item]), 0.0)
+def _pick(decision: Decision, item: int) -> ValuedAction:
+    return ValuedAction(Pick(item), float(decision.pick[item]), 0.0)

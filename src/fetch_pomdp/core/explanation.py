@@ -17,7 +17,7 @@ CERTAIN = 0.9995  # belief that would be printed as 100.0%
 
 
 @dataclass(frozen=True, slots=True)
-class Alternative:
+class ValuedAction:
     """An action, its expected return, and the standard error of that; NaN where the planner does not value it.
 
     The error is 0 where nothing was sampled.
@@ -47,14 +47,14 @@ class Explanation:
     """The reasons of a decision. Beliefs are probabilities, values expected returns. Prints as a sentence."""
 
     scene: Scene = field(repr=False)  # the names of the items, and the rewards
-    chosen: Alternative
+    chosen: ValuedAction
     item: int  # what the decision is about; a wait is about the likeliest item
     belief: float  # in `item`
     rival: Rival | None  # None on a table of one item
     as_likely: int  # how many items are as likely as `item`, itself included
-    wait: Alternative
-    question: Alternative  # the best one
-    pick: Alternative  # the best one
+    wait: ValuedAction
+    question: ValuedAction  # the best one
+    pick: ValuedAction  # the best one
     unanswered: int | None  # the item of a question that no response has followed
 
     @property
@@ -76,11 +76,11 @@ class Explanation:
         return _error(self.question, self._without)
 
     @property
-    def _without(self) -> Alternative:
+    def _without(self) -> ValuedAction:
         return _highest(self.wait, self.pick)
 
     @property
-    def runner_up(self) -> Alternative:
+    def runner_up(self) -> ValuedAction:
         """The best action of another kind: among questions about twins there is always a tie that means nothing."""
         kinds = (self.wait, self.question, self.pick)
         return _highest(*(option for option in kinds if type(option.action) is not type(self.action)))
@@ -129,12 +129,12 @@ def deed(action: Action, scene: Scene) -> Phrase:
     return phrase("why_asks" if isinstance(action, Point) else "why_picks", item=scene.items[action.item].id)
 
 
-def _highest(*options: Alternative) -> Alternative:
+def _highest(*options: ValuedAction) -> ValuedAction:
     """Return the option of the highest value, the first of equal ones; one without a value only if none has one."""
     return max(options, key=lambda option: option.value if option.valued else -math.inf)
 
 
-def _error(first: Alternative, second: Alternative) -> float:
+def _error(first: ValuedAction, second: ValuedAction) -> float:
     return math.hypot(first.error, second.error) if first.valued and second.valued else math.nan
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.evidence import LogOdds
-from fetch_pomdp.core.explanation import Alternative, Explanation
+from fetch_pomdp.core.explanation import Explanation, ValuedAction
 from fetch_pomdp.core.phrases import Figure, Phrase, Value
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.scene import Scene
@@ -82,7 +82,7 @@ def _value_to_json(value: Value) -> str | dict[str, Any]:
     return {"number": value.english} if isinstance(value, Figure) else value
 
 
-def _option_to_json(option: Alternative, scene: Scene) -> dict[str, Any]:
+def _option_to_json(option: ValuedAction, scene: Scene) -> dict[str, Any]:
     item = action_to_json(option.action, scene).get("item")
     about = {} if item is None else {"item": item}
     return {**about, "value": _number(option.value), "error": option.error if option.valued else None}
