@@ -184,7 +184,7 @@ class _Interaction:
             words, ray = texts(observed.words), observed.observation.ray
             silence = 0.0 if words else silence + self._timing.wait
             objects = self._answers.read(words, After.STOPPED).meaning is Meaning.NO
-            if objects and not asks_for_another(words):
+            if objects and not asks_for_another(words, self._answers):
                 yield self._taken_back(handed, observed)
                 self._agent.take(observed)
                 yield observed

@@ -38,7 +38,6 @@ ADVERBS = english.ADVERBS | german.ADVERBS
 REQUESTS = english.REQUESTS | german.REQUESTS
 OTHERS = english.OTHERS | german.OTHERS
 
-DENYING = (frozenset(NEGATIVE) | STOPS | NEGATORS | {"nein", "falsch"}) - OTHERS
 DECISIVE = frozenset({Meaning.YES, Meaning.NO, Meaning.UNSURE, Meaning.CANCEL})
 DENIALS = frozenset({Meaning.NO, Meaning.OBJECT})
 EVERY = frozenset(Meaning)
@@ -98,10 +97,14 @@ class PaperAnswers:
 PAPER = PaperAnswers()
 
 
-def asks_for_another(words: Sequence[str]) -> bool:
-    """Return whether somebody who got an item wants another beside it: "and now the other one", "give me another"."""
-    said = {plain(word) for word in words}
-    return not said.isdisjoint(OTHERS) and not said.isdisjoint(REQUESTS) and said.isdisjoint(DENYING)
+def asks_for_another(words: Sequence[str], answers: AnswerReader) -> bool:
+    """Return whether somebody who got an item wants another beside it: "and now the other one", "give me another".
+
+    So they ask, and nothing but "other" would stop the hand-over.
+    """
+    rest = [word for word in words if plain(word) not in OTHERS]
+    asks = any(plain(word) in REQUESTS for word in rest)
+    return asks and len(rest) < len(words) and not answers.objects(rest)
 
 
 @dataclass(frozen=True, slots=True)
