@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
 
 from fetch_pomdp import checks
 from fetch_pomdp.checks import shown
@@ -17,6 +17,8 @@ from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Outcome, Word
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import ActionError, EventError, InputError
+
+Made = TypeVar("Made")
 
 ACTIONS = ("wait", "point", "pick")
 OUTCOMES = tuple(outcome.value for outcome in Outcome)
@@ -71,7 +73,7 @@ def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
 def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
     checks.known(data, ("utterance", "words", "alternatives", "head", "wrist", "spoken"), "field", EventError)
     utterance, spoken = (_text(data.get(name), name) for name in ("utterance", "spoken"))
-    words = _words(data.get("words"))
+    words = _listed(data.get("words"), "words", _word)
     if utterance is None:
         utterance = " ".join(word.text for word in words)
     head, wrist = data.get("head"), data.get("wrist")
@@ -80,7 +82,7 @@ def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
         raise EventError("found none, expected head and wrist, or neither", field=missing)
     ray = None if head is None or wrist is None else Ray(head, wrist)
     said = None if spoken is None else tokenize(spoken)
-    alternatives = _alternatives(data.get("alternatives"))
+    alternatives = _listed(data.get("alternatives"), "alternatives", _alternative)
     return Observed(Observation(tokenize(utterance), ray, alternatives), words, time, said)
 
 
@@ -90,47 +92,38 @@ def _text(value: object, field: str) -> str | None:
     return value
 
 
-def _alternatives(value: object) -> tuple[Alternative, ...]:
+def _listed(value: object, field: str, make: Callable[[Mapping[str, Any]], Made]) -> tuple[Made, ...]:
+    """Return what is made of each object of a list, () where there is none; errors name the place in it."""
     if value is None:
         return ()
     if isinstance(value, str) or not isinstance(value, Sequence):
-        raise EventError(f"found {shown(value)}, expected a list of alternatives", field="alternatives")
-    return tuple(_alternative(fields, f"alternatives[{index}]") for index, fields in enumerate(value))
+        raise EventError(f"found {shown(value)}, expected a list of {field}", field=field)
+    made: list[Made] = []
+    for index, each in enumerate(value):
+        try:
+            made.append(make(checks.mapping(each, "", EventError)))
+        except InputError as error:
+            raise error.within(f"{field}[{index}]") from None
+    return tuple(made)
 
 
-def _alternative(value: object, path: str) -> Alternative:
-    try:
-        data = checks.mapping(value, "", EventError)
-        checks.known(data, ("utterance", "weight"), "field", EventError)
-        checks.required(data, ("utterance", "weight"), EventError)
-        weight = checks.within(data["weight"], 0.0, 1.0, "weight", "a probability above 0", EventError)
-        return Alternative(tokenize(_text(data["utterance"], "utterance") or ""), weight)
-    except InputError as error:
-        raise error.within(path) from None
+def _alternative(data: Mapping[str, Any]) -> Alternative:
+    checks.known(data, ("utterance", "weight"), "field", EventError)
+    checks.required(data, ("utterance", "weight"), EventError)
+    weight = checks.within(data["weight"], 0.0, 1.0, "weight", "a probability above 0", EventError)
+    return Alternative(tokenize(_text(data["utterance"], "utterance") or ""), weight)
 
 
-def _words(value: object) -> tuple[Word, ...]:
-    if value is None:
-        return ()
-    if isinstance(value, str) or not isinstance(value, Sequence):
-        raise EventError(f"found {shown(value)}, expected a list of words", field="words")
-    return tuple(_word(fields, f"words[{index}]") for index, fields in enumerate(value))
-
-
-def _word(value: object, path: str) -> Word:
-    try:
-        data = checks.mapping(value, "", EventError)
-        checks.known(data, ("text", "start", "end", "posterior"), "field", EventError)
-        checks.required(data, ("text", "start", "end"), EventError)
-        posterior = data.get("posterior", 1.0)
-        return Word(
-            checks.text(data["text"], "text", "a word", EventError),
-            checks.number(data["start"], "start", "a time in seconds", EventError),
-            checks.number(data["end"], "end", "a time in seconds", EventError),
-            checks.within(posterior, 0.0, 1.0, "posterior", "a probability", EventError),
-        )
-    except InputError as error:
-        raise error.within(path) from None
+def _word(data: Mapping[str, Any]) -> Word:
+    checks.known(data, ("text", "start", "end", "posterior"), "field", EventError)
+    checks.required(data, ("text", "start", "end"), EventError)
+    posterior = data.get("posterior", 1.0)
+    return Word(
+        checks.text(data["text"], "text", "a word", EventError),
+        checks.number(data["start"], "start", "a time in seconds", EventError),
+        checks.number(data["end"], "end", "a time in seconds", EventError),
+        checks.within(posterior, 0.0, 1.0, "posterior", "a probability", EventError),
+    )
 
 
 def _time(value: object, field: str) -> float | None:
