@@ -35,7 +35,19 @@ CLEARLY = 2.0  # standard errors
 
 
 @dataclass(frozen=True, slots=True)
-class NeverAsk:
+class _Fitted:
+    """What both are planned with: parameters of the fit of `FittedValue`."""
+
+    beliefs: int = 8_000
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        whole_number(self.beliefs, 100, MOST_BELIEFS, "beliefs")
+        whole_number(self.seed, 0, 2**63 - 1, "seed")
+
+
+@dataclass(frozen=True, slots=True)
+class NeverAsk(_Fitted):
     """Paradigm one, the best robot that never asks: it waits or picks.
 
     The plan is `FittedValue`'s for a table on which no question can be worth its price. Where a limit on the belief
@@ -47,13 +59,6 @@ class NeverAsk:
 
     It values no question; where a limit is followed, picks alone. Raises PlannerError for a parameter out of range.
     """
-
-    beliefs: int = 8_000  # of the fit
-    seed: int = 0  # of the fit
-
-    def __post_init__(self) -> None:
-        whole_number(self.beliefs, 100, MOST_BELIEFS, "beliefs")
-        whole_number(self.seed, 0, 2**63 - 1, "seed")
 
     def prepare(self, problem: Problem) -> None:
         """Solve the problem now, so that the first decision is as fast as the others."""
@@ -87,7 +92,7 @@ def _without_questions(scene: Scene, beliefs: int, seed: int) -> tuple[Problem, 
 
 
 @dataclass(frozen=True, slots=True)
-class AlwaysAsk:
+class AlwaysAsk(_Fitted):
     """Paradigm two, the best robot that asks at least one question about the item it holds likeliest before it picks.
 
     It asks as soon as that item's belief has reached a limit, or where `FittedValue` asks or picks; from then on it
@@ -102,13 +107,6 @@ class AlwaysAsk:
 
     The values are the plan's, which need not ask. Raises PlannerError for a parameter out of range.
     """
-
-    beliefs: int = 8_000  # of the fit
-    seed: int = 0  # of the fit
-
-    def __post_init__(self) -> None:
-        whole_number(self.beliefs, 100, MOST_BELIEFS, "beliefs")
-        whole_number(self.seed, 0, 2**63 - 1, "seed")
 
     def prepare(self, problem: Problem) -> None:
         """Solve the problem now, so that the first decision is as fast as the others."""
