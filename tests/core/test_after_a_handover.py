@@ -165,6 +165,7 @@ def test_a_second_request_begins_anew() -> None:
         ("hand me the other marker", True), ("and now the other one", True), ("gib mir auch den anderen", True),
         ("the other one", False), ("no give me the other one", False), ("not that one i want the other", False),
         ("ich will den anderen nicht den", False), ("wrong one hand me the other", False),
+        ("nah give me the other one", False),
     ],
 )  # fmt: skip
 def test_another_one_is_wanted_beside_the_first_or_in_its_place(said: str, anew: bool) -> None:

@@ -17,8 +17,20 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
-from fetch_pomdp.cli.options import Budget, Depth, Ears, Json, ModelFile, PlannerName, SceneName, Seed, Width, loaded
-from fetch_pomdp.cli.robot import RobotName, Stage, Video, opened_robot, timing_of
+from fetch_pomdp.cli.options import (
+    Budget,
+    Depth,
+    Ears,
+    Json,
+    ModelFile,
+    PlannerName,
+    RobotName,
+    SceneName,
+    Seed,
+    Video,
+    Width,
+    loaded,
+)
 from fetch_pomdp.cli.show import show_event
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.action import Pick
@@ -30,7 +42,7 @@ from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import DEFAULT
-from fetch_pomdp.core.ports import Recognizer, SkeletonSource
+from fetch_pomdp.core.ports import Recognizer, Robot, SkeletonSource
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import MOST_STEPS
 from fetch_pomdp.errors import InputError
@@ -110,11 +122,14 @@ def fetch(
         record = open_files.enter_context(EventLog.create(log, header)) if log else None
         said: list[str] = []
         timing, steps = (TYPED, sys.maxsize) if typed else (RECORDED, MOST_STEPS)
-        if robot is not None and not typed:
-            timing = dataclasses.replace(timing_of(robot), after=RECORDED.after)
-        live = STREAM in {audio, skeleton} or audio == MICROPHONE
-        stage = Stage(scene=table, say=said.append, console=console, video=video, live=live)
-        body = open_files.enter_context(opened_robot(robot, stage)) if robot else ConsoleRobot(said.append)
+        body: Robot = ConsoleRobot(said.append)
+        if robot is not None:
+            from fetch_pomdp.cli.robot import Stage, opened_robot, timing_of
+
+            timing = timing if typed else dataclasses.replace(timing_of(robot), after=RECORDED.after)
+            live = STREAM in {audio, skeleton} or audio == MICROPHONE
+            stage = Stage(scene=table, say=said.append, console=console, video=video, live=live)
+            body = open_files.enter_context(opened_robot(robot, stage))
         events = interact(agent, body, words, eyes, timing=timing, most_steps=steps)
         _follow(_recorded(events, record), agent, said, console, json_lines=json_lines)
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from fetch_pomdp.adapters.robot.mujoco.description import KNOWN
 from fetch_pomdp.core.planners.base import Planner
 from fetch_pomdp.core.planners.catalogue import DEFAULT, PLANNERS, planner_named
 from fetch_pomdp.core.scene import Scene
@@ -38,6 +39,15 @@ Ears = Annotated[
 ]
 Seed = Annotated[int | None, typer.Option(min=0, help="The same seed gives the same result.  [default: 0]")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
+RobotName = Annotated[
+    str | None,
+    typer.Option(
+        "--robot", metavar="NAME", help=f"A body in MuJoCo: {', '.join(KNOWN)}, or a TOML file (docs/robot.md)."
+    ),
+]
+Video = Annotated[
+    Path | None, typer.Option("--video", metavar="OUT.mp4", help="With --robot: a film of its movements.")
+]
 
 
 def built_planner(name: str | None, **parameters: Any) -> Planner:

@@ -7,13 +7,11 @@ import dataclasses
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
 
-import typer
 from rich.console import Console
 from rich.markup import escape
 
-from fetch_pomdp.adapters.robot.mujoco.description import KNOWN, RobotDescription
+from fetch_pomdp.adapters.robot.mujoco.description import RobotDescription
 from fetch_pomdp.adapters.robot.mujoco.film import Film, choose_graphics
 from fetch_pomdp.adapters.robot.mujoco.layout import layout
 from fetch_pomdp.adapters.robot.mujoco.pace import WallClock
@@ -23,16 +21,6 @@ from fetch_pomdp.core.interaction import Timing
 from fetch_pomdp.core.ports import Failure, Outcome, Robot
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.study.design import Study
-
-RobotName = Annotated[
-    str | None,
-    typer.Option(
-        "--robot", metavar="NAME", help=f"A body in MuJoCo: {', '.join(KNOWN)}, or a TOML file (docs/robot.md)."
-    ),
-]
-Video = Annotated[
-    Path | None, typer.Option("--video", metavar="OUT.mp4", help="With --robot: a film of its movements.")
-]
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,10 +13,9 @@ from rich.table import Table
 
 from fetch_pomdp.adapters.speech.spoken import SpokenWords
 from fetch_pomdp.cli.curves import curves, price_lists
-from fetch_pomdp.cli.options import Json, ModelFile, Seed, as_json
+from fetch_pomdp.cli.options import Json, ModelFile, RobotName, Seed, as_json
 from fetch_pomdp.cli.progress import trials_bar
 from fetch_pomdp.cli.reproduce import compare, fit, stories
-from fetch_pomdp.cli.robot import RobotName, with_robot
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
@@ -75,6 +74,8 @@ def study(
     given = {"people": people, "seed": seed, "logs": logs or None, "real_speech": real_speech or None}
     chosen = _chosen(config, model, given)
     if robot is not None:
+        from fetch_pomdp.cli.robot import with_robot
+
         chosen = with_robot(chosen, robot)
     crew = Crew(workers=workers, backend=backend, address=address)  # type: ignore[arg-type]
     _play(chosen, out, crew)
