@@ -14,7 +14,6 @@ from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.explanation import deed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.hearing import texts
-from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.scene import Scene
@@ -42,7 +41,7 @@ def _perceived(event: Observed, agent: Agent) -> str:
     observation, parts = event.observation, []
     if observation.words:
         parts.append(f'hears "{escape(" ".join(texts(event.words) or observation.words))}"')
-        unknown = [word for word in unigram.split(observation.words, agent.problem).unknown if word not in COURTESY]
+        unknown = [word for word in agent.understood.utterance.unknown if word not in COURTESY]
         if unknown:
             parts.append(f"[yellow]not understood: {escape(', '.join(unknown))}[/yellow]")
     if observation.ray is not None:

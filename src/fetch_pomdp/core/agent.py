@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import overload
 
@@ -16,27 +18,48 @@ from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
-from fetch_pomdp.core.events import Event, Observed
+from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.evidence import Evidence
 from fetch_pomdp.core.explain import explain
 from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
-from fetch_pomdp.core.language import unigram
-from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
-from fetch_pomdp.core.language.meaning import STAND_INS, Meaning
+from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader, lexicon
+from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader
-from fetch_pomdp.core.language.reading.talk import divided
-from fetch_pomdp.core.language.reading.tokens import STOP, words_of
+from fetch_pomdp.core.language.reading.talk import AsHeard, Moment, said_by
+from fetch_pomdp.core.language.reading.telling import LOST
 from fetch_pomdp.core.language.unigram import Utterance
-from fetch_pomdp.core.language.words import tokenize
+from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.model import Model, Rewards
-from fetch_pomdp.core.observation import Observation, Parts
+from fetch_pomdp.core.observation import Meant, Observation, Parts, Said
 from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.core.turns import NO, YES, StepChances, constant_chances
 from fetch_pomdp.errors import ActionError, ObservationError, PlannerError
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Understood:
+    """What an observation says.
+
+    utterance: its words, split. meant: what all readings together most likely say. parts: the factors of Eq. 3. heard:
+    what a reader made of the words beside an answer, None where there are none or no reader reads.
+    """
+
+    utterance: Utterance
+    meant: Meant
+    parts: Parts
+    heard: Heard | None = None
+
+    @property
+    def lost(self) -> bool:
+        """Whether something was said of which too little was understood."""
+        said = self.utterance
+        if said.base or said.meaning:
+            return self.heard is not None and self.heard.lost > LOST and not said.meaning
+        return not AROUND.union(COURTESY).issuperset(said.unknown)
 
 
 class Agent:
@@ -61,7 +84,8 @@ class Agent:
     ) -> None:
         table = scene if isinstance(scene, Scene) else Scene.load(scene)
         self.problem = Problem(_changed(table, model, rewards))
-        self.answers: Lexicon = lexicon(table.answers, self.problem.words)
+        self._lexicon = lexicon(table.answers, self.problem.words)
+        self.answers: AnswerReader = self._lexicon if reader is None else AsHeard(self._lexicon)
         self.planner: Planner = FittedValue() if planner is None else _planner(planner)
         self.seed = checks.whole(seed, 0, 2**63 - 1, "seed", PlannerError)
         self.reader = reader
@@ -69,19 +93,26 @@ class Agent:
         if len(self._prior.log_probabilities) != self.problem.n_items:
             found = len(self._prior.log_probabilities)
             raise ObservationError(f"found {found} probabilities, expected {self.problem.n_items}", field="prior")
-        self._steps = 0
+        self._steps, self._context = 0, Context()
         self.begin()
 
     def begin(self) -> None:
-        """Begin with a request: nothing of it was heard, seen or asked yet."""
+        """Begin with a request: nothing of it was heard, seen or asked yet.
+
+        Whose left the person means, and what was meant last, stay for who says "the other one" (`Context`).
+        """
         self._belief = self._prior
-        self.heard: Heard | None = None  # what the reader made of the last words
-        self._context = Context()
         self.asked: int | None = None  # i_r, as an index into the scene's items
         self.handed: int | None = None  # the item that was handed over last, if nothing was done since
         self.phase = 0  # where the talk stands (`turns`)
         self._acted: Action = Wait()  # since the last observation
+        self._stopped = False  # whether that was a pick that the person stopped
         self._evidence = Evidence.none(self._belief.log_probabilities)
+        self.understood = self.understand(Observation())  # what the last observation said
+
+    def copy(self) -> Agent:
+        """Return an agent that goes on from here by itself; planner and reader are shared."""
+        return copy.copy(self)  # all that changes is immutable
 
     @property
     def belief(self) -> Vector:
@@ -100,7 +131,11 @@ class Agent:
 
     @property
     def after(self) -> After:
-        """What the words heard next follow: a question as long as none of them has answered it, or nothing."""
+        """What the words heard next follow: a hand-over, done or stopped; a question, as long as none has answered it;
+        or nothing.
+        """
+        if self._stopped or self.handed is not None:
+            return After.HANDED
         return After.NOTHING if self._evidence.unanswered is None else After.QUESTION
 
     @property
@@ -133,9 +168,8 @@ class Agent:
             missing = "head" if head is None else "wrist"
             raise ObservationError("found none, expected head and wrist, or neither", field=missing)
         ray = None if head is None or wrist is None else Ray(head, wrist)
-        if self.reader is not None:
-            return self.update(Observation(words_of(utterance or ""), ray))
-        return self.update(Observation(self.answers.read(tokenize(utterance or ""), self.after).words, ray))
+        words = self.answers.read(self.answers.words(utterance or ""), self.after).words
+        return self.update(Observation(words, ray))
 
     def update(self, observation: Observation) -> Utterance:
         """Take in an observation; return how its words were understood, by the paper's lists of answers.
@@ -145,44 +179,38 @@ class Agent:
         """
         if not isinstance(observation, Observation):
             raise ObservationError(f"found {shown(observation)}, expected Observation(...)", field="observation")
-        if self.reader is not None:
-            return self._read(observation, self.reader)
-        utterance = unigram.split(observation.words, self.problem)
-        if utterance.meaning is Meaning.CANCEL:
+        understood = self.understand(observation)
+        if understood.utterance.meaning is Meaning.CANCEL:
             self.begin()
-        parts = observations.log_likelihoods(observation, self.asked, self.problem, self.chances)
-        self._take_in(observation, parts)
-        return utterance
+            understood = self.understand(observation)
+        self._take_in(observation, understood)
+        return understood.utterance
 
-    def _read(self, observation: Observation, reader: Reader) -> Utterance:
-        """Take in an observation whose words a reader reads; a correction takes back what was said before."""
-        asked = self._evidence.unanswered
-        answer, content = divided(observation.words, self.answers, asked is not None)
-        if answer is Meaning.CANCEL:
-            self.begin()
-        heard = reader.read(content, self.scene, self._context.after_question(self.asked))
-        self._context = heard.context
-        response = () if answer is None or answer is Meaning.OBJECT else (STAND_INS[answer],)
-        known = tuple(word for word in content if word not in heard.unknown and word != STOP)
-        if heard.corrects:
-            self._evidence = self._evidence.without_talk()
-            self._belief = Belief.of_logs(self._evidence.prior + self._evidence.pointing)
-        words = heard.log_likelihood if known else unigram.base_log_likelihood((), self.problem)
-        answered = observations.log_likelihoods(
-            Observation(response, observation.ray), self.asked, self.problem, self.chances
+    def understand(self, observation: Observation) -> Understood:
+        """Return what an observation says as things stand; nothing changes."""
+        said = [self._said(each.words) for each in observations.readings(observation)]
+        parts = observations.parts_of(observation, said, self.asked, self.problem, self.chances)
+        best = said[[each.words for each in observations.readings(observation)].index(observation.words)]
+        return Understood(best.utterance, observations.meant(observation, said), parts, best.heard)
+
+    def _said(self, words: tuple[str, ...]) -> Said:
+        if self.reader is None:
+            return observations.said_in(words, self.problem)
+        return said_by(self.reader, words, self._lexicon, Moment(self.after, self.asked, self._context), self.problem)
+
+    def _take_in(self, observation: Observation, understood: Understood) -> None:
+        heard = understood.heard
+        if heard is not None:
+            self._context = heard.context
+            if heard.corrects:
+                self._evidence = self._evidence.without_talk()
+                self._belief = Belief.of_logs(self._evidence.prior + self._evidence.pointing)
+        self._belief = self._belief.updated(observation, self.asked, self.problem, parts=understood.parts)
+        self.phase = observations.phase_following(
+            understood.meant, observation.ray, self._acted, self.problem, self.phase, asked=self.asked
         )
-        parts = Parts(words, answered.answers, answered.pointing)
-        self.heard = heard if content else None
-        spoken = (self.problem.words[0],) if known else ()  # for whose turn it is, any word of the scene will do
-        self._take_in(Observation((*spoken, *response), observation.ray), parts)
-        return Utterance(known, response if answer in {Meaning.YES, Meaning.NO} else (), heard.unknown, answer)
-
-    def _take_in(self, observation: Observation, parts: Parts) -> None:
-        self._belief = self._belief.updated(observation, self.asked, self.problem, parts=parts)
-        self.phase = observations.phase_after(observation, self._acted, self.problem, self.phase, asked=self.asked)
-        self._acted = Wait()
-        answered = observations.meant(observation, self.problem).answer in (YES, NO)
-        self._evidence = self._evidence.plus(parts, answered=answered)
+        self._acted, self._stopped, self.understood = Wait(), False, understood
+        self._evidence = self._evidence.plus(understood.parts, answered=understood.meant.answer in (YES, NO))
         self._steps += 1
 
     def decide(self, *, passes: int | None = None) -> Decision:
@@ -212,7 +240,7 @@ class Agent:
         Raises ActionError for anything but an action, or for one about an item that the scene does not have.
         """
         self._check(action)
-        self.asked, self._acted = asked_after(action, self.asked), action
+        self.asked, self._acted, self._stopped = asked_after(action, self.asked), action, False
         self.handed = action.item if isinstance(action, Pick) else None
         if isinstance(action, Point):
             self._evidence = self._evidence.asked(action.item)
@@ -220,12 +248,24 @@ class Agent:
 
     def take(self, event: Event) -> None:
         """Go on from an event: an observation, or what an action came to. Live and replayed alike."""
-        if isinstance(event, Observed):
-            if event.anew:
-                self.begin()
-            self.update(event.observation)
-        elif event.counts_as is not None:
-            self.did(event.counts_as)
+        if isinstance(event, Acted):
+            if event.counts_as is not None:
+                self.did(event.counts_as)
+                self._stopped = event.objected
+            return
+        if event.anew:
+            self._begin_again()
+        self.update(event.observation)
+
+    def begun(self) -> Agent:
+        """Return an agent that begins with another request after a hand-over, which "the other one" may refer to."""
+        agent = self.copy()
+        agent._begin_again()
+        return agent
+
+    def _begin_again(self) -> None:
+        self._context = self._context.after_question(self.handed)
+        self.begin()
 
     @overload
     def item(self, action: Point | Pick) -> Item: ...

@@ -36,9 +36,9 @@ def understood(
     def read(heard: tuple[str, ...]) -> tuple[str, ...]:
         return before + reader.read(heard, after).words
 
-    best = read(texts(words))
+    best = read(_words(words, reader))
     combined: list[tuple[tuple[str, ...], float]] = [((), 1.0)]
-    for options in _utterances(words):
+    for options in _utterances(words, reader):
         combined = [(said + each.words, p * each.weight) for said, p in combined for each in options]
         combined = sorted(combined, key=lambda one: -one[1])[:MOST]
     if len(combined) == 1:
@@ -53,9 +53,14 @@ def understood(
     return Observation(best, ray, tuple(Alternative(found, p / total) for found, p in weights.items()))
 
 
-def _utterances(words: Sequence[Word]) -> Iterator[Sequence[Alternative]]:
+def _utterances(words: Sequence[Word], reader: AnswerReader) -> Iterator[Sequence[Alternative]]:
     """Yield the readings of each utterance; one, its words, where it has no others or is not here as a whole."""
     for _, run in groupby(words, key=lambda word: id(word.readings) if word.readings else 0):
         utterance = tuple(run)
-        heard, readings = texts(utterance), utterance[0].readings
-        yield readings if readings and readings[0].words == heard else (Alternative(heard, 1.0),)
+        readings = utterance[0].readings
+        whole = readings and readings[0].words == texts(utterance)
+        yield readings if whole else (Alternative(_words(utterance, reader), 1.0),)
+
+
+def _words(words: Sequence[Word], reader: AnswerReader) -> tuple[str, ...]:
+    return tuple(text for word in words for text in reader.words(word.text))

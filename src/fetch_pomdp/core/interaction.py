@@ -26,14 +26,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
-from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.agent import Agent, Understood
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.hearing import texts, understood
-from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader, asks_for_another
+from fetch_pomdp.core.language.answers import After, AnswerReader, asks_for_another
 from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.names import is_name
-from fetch_pomdp.core.language.unigram import split
-from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Failure, Outcome, Recognizer, Robot, SkeletonSource
 from fetch_pomdp.core.senses import Pace, Senses, StreamPace
@@ -79,11 +77,6 @@ class Timing:
 def ended(observed: Observed, due: float) -> float:
     """Return when (s) a step ended that was due at a time, or went on to the end of an utterance."""
     return due if observed.time is None else max(due, observed.time)
-
-
-def following(event: Event, agent: Agent) -> After:
-    """Return what the words follow that are heard after an event that the agent has taken."""
-    return After.STOPPED if isinstance(event, Acted) and event.objected else agent.after
 
 
 def interact(
@@ -159,9 +152,9 @@ class _Interaction:
                 return
             self._robot.say(OBJECTED if acted.objected else FAILED)
             self._now = self._pace.time(self._now)
-        observed = self._listened(listening, following(acted, agent))
+        observed = self._listened(listening, agent.after)
         agent.take(observed)
-        self._reply(observed, waited=isinstance(acted.action, Wait))
+        self._reply(observed, agent.understood, waited=isinstance(acted.action, Wait))
         yield observed
 
     def _acted(self, decision: Decision, result: Outcome | Failure) -> Acted:
@@ -180,24 +173,25 @@ class _Interaction:
         """Listen after a hand-over until what is said begins something, or for long enough; yield what it began."""
         handed, silence = self._agent.handed, 0.0
         while silence < self._timing.after and handed is not None:
-            observed = self._listened(self._timing.wait, After.STOPPED)
+            observed = self._listened(self._timing.wait, After.HANDED)
             words, ray = texts(observed.words), observed.observation.ray
             silence = 0.0 if words else silence + self._timing.wait
-            objects = self._answers.read(words, After.STOPPED).meaning is Meaning.NO
+            objects = self._answers.read(words, After.HANDED).meaning is Meaning.NO
             if objects and not asks_for_another(words, self._answers):
                 yield self._taken_back(handed, observed)
                 self._agent.take(observed)
                 yield observed
                 return
-            asked = understood(observed.words, self._answers, After.NOTHING, ray)
-            more = objects or split(asked.words, self._agent.problem).base
+            begun = dataclasses.replace(
+                observed, observation=understood(observed.words, self._answers, After.NOTHING, ray), anew=True
+            )
+            more = objects or self._agent.begun().understand(begun.observation).utterance.base
             if more or (ray is not None and self._lowered):
-                begun = dataclasses.replace(observed, observation=asked, anew=True)
                 self._agent.take(begun)
                 yield begun
                 return
             self._lowered = self._lowered or ray is None
-            self._reply(observed, waited=False)
+            self._reply(observed, self._agent.understand(observed.observation), waited=False)
 
     def _taken_back(self, item: int, objection: Observed) -> Acted:
         """Take an item back; that counts from the time of the objection, which is read after it."""
@@ -208,14 +202,14 @@ class _Interaction:
         self._agent.take(acted)
         return acted
 
-    def _reply(self, observed: Observed, *, waited: bool) -> None:
+    def _reply(self, observed: Observed, heard: Understood, *, waited: bool) -> None:
         """Say what a person has to know who was not understood, or who is silent."""
-        said = split(observed.observation.words, self._agent.problem)
+        said = heard.utterance
         silent = waited and not observed.observation.words and self._agent.after is After.NOTHING
         self._silence = self._silence + self._timing.wait if silent else 0.0
         if said.meaning is Meaning.CANCEL and not said.base:
             self._robot.say(CANCELLED)
-        elif not (said.base or said.meaning) and set(said.unknown) - COURTESY - AROUND:
+        elif heard.lost:
             self._robot.say(not_understood(self._agent.problem.words))
         elif self._silence >= self._timing.silence:
             self._robot.say(LISTENING)

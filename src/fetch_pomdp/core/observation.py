@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,6 +17,7 @@ from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.language.meaning import Meaning
+from fetch_pomdp.core.language.reading.reader import Heard
 from fetch_pomdp.core.language.unigram import Utterance
 from fetch_pomdp.core.language.words import POSITIVE
 from fetch_pomdp.core.problem import Problem
@@ -80,23 +81,54 @@ class Parts(NamedTuple):
         return result
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Said:
+    """An utterance that was read: what kind of words there are, and what those about the item say of each.
+
+    words: (n_items,), log p(l_b | i_d) up to a constant. heard: what a reader made of them, if one read them.
+    """
+
+    utterance: Utterance
+    words: Vector
+    heard: Heard | None = None
+
+
+def said_in(words: tuple[str, ...], problem: Problem) -> Said:
+    """Read an utterance as the paper does, word by word (Section III-C, Eq. 4, 5)."""
+    utterance = unigram.split(words, problem)
+    return Said(utterance, unigram.base_log_likelihood(utterance.base, problem))
+
+
 def log_likelihoods(observation: Observation, asked: int | None, problem: Problem, chances: StepChances) -> Parts:
     """Log p(o | i_d, i_r) for each item as the desired one (Eq. 1-3), part by part: given the state they are
     independent.
 
+    asked: index of i_r, or None. chances: of the step, see `Problem.step_chances`.
+    """
+    said = [said_in(each.words, problem) for each in readings(observation)]
+    return parts_of(observation, said, asked, problem, chances)
+
+
+def readings(observation: Observation) -> tuple[Alternative, ...]:
+    """Return every reading of the words; the words themselves where they are certain."""
+    return observation.alternatives or (Alternative(observation.words, 1.0),)
+
+
+def parts_of(
+    observation: Observation, said: Sequence[Said], asked: int | None, problem: Problem, chances: StepChances
+) -> Parts:
+    """Return the three factors of an observation from what each of its `readings` says.
+
     Choice: "I don't know" is neither an answer nor silence, and tells nothing.
 
-    asked: index of i_r, or None. chances: of the step, see `Problem.step_chances`. Alternatives are taken together as
-    `alternatives` says.
+    Alternatives are taken together as `alternatives` says.
     """
-    readings = [each.words for each in observation.alternatives] or [observation.words]
-    utterances = [unigram.split(words, problem) for words in readings]
-    words = [unigram.base_log_likelihood(utterance.base, problem) for utterance in utterances]
-    answers = [_answer_log_likelihood(utterance, asked, problem, chances) for utterance in utterances]
+    answers = [_answer_log_likelihood(each.utterance, asked, problem, chances) for each in said]
     pointing = gesture.log_likelihood(observation.ray, problem, chances.width)
-    if len(readings) == 1:
-        return Parts(words[0], answers[0], pointing)
-    return Parts(*together([each.weight for each in observation.alternatives], words, answers, asked), pointing)
+    if len(said) == 1:
+        return Parts(said[0].words, answers[0], pointing)
+    weights = [each.weight for each in readings(observation)]
+    return Parts(*together(weights, [each.words for each in said], answers, asked), pointing)
 
 
 def _answer_log_likelihood(utterance: Utterance, asked: int | None, problem: Problem, chances: StepChances) -> Vector:
@@ -119,14 +151,14 @@ class Meant(NamedTuple):
     answer: int  # see `turns`
 
 
-def meant(observation: Observation, problem: Problem) -> Meant:
+def meant(observation: Observation, said: Sequence[Said]) -> Meant:
     """Return what was most likely said: of ten readings with the item's word, each may be less likely than one without.
 
-    Of several responses in a reading the last counts.
+    said: what each of its `readings` says. Of several responses in a reading the last counts.
     """
     words, answers = 0.0, [0.0] * 5
-    for reading in observation.alternatives or (Alternative(observation.words, 1.0),):
-        utterance = unigram.split(reading.words, problem)
+    for reading, each in zip(readings(observation), said, strict=True):
+        utterance = each.utterance
         answer = EVASIONS.get(utterance.meaning, SILENT)
         if utterance.response:
             answer = YES if utterance.response[-1] in POSITIVE else NO
@@ -135,16 +167,26 @@ def meant(observation: Observation, problem: Problem) -> Meant:
     return Meant(words > 0.5, answers.index(max(answers)))
 
 
-def phase_after(
-    observation: Observation, action: Action, problem: Problem, phase: int = 0, *, asked: int | None
+def phase_following(
+    heard: Meant, ray: Ray | None, action: Action, problem: Problem, phase: int = 0, *, asked: int | None
 ) -> int:
     """Return the phase (`turns`) that a step leads to which began with an action.
 
-    asked: i_r in the step, for words that answer nothing change nothing. The paper's one phase stays.
+    heard, ray: what was said and seen in it. asked: i_r in the step, for words that answer nothing change nothing. The
+    paper's one phase stays.
     """
     if problem.model.turns is None:
         return phase
-    heard = meant(observation, problem)
-    seen = observation.ray is not None and gesture.is_pointing(observation.ray, problem)
+    seen = ray is not None and gesture.is_pointing(ray, problem)
     following = problem.tables.following[phase, int(not isinstance(action, Wait)), int(heard.words), int(seen)]
     return int(following[SILENT if asked is None else heard.answer])
+
+
+def phase_after(
+    observation: Observation, action: Action, problem: Problem, phase: int = 0, *, asked: int | None
+) -> int:
+    """Return `phase_following` of an observation whose words are read as in the paper."""
+    if problem.model.turns is None:
+        return phase
+    heard = meant(observation, [said_in(each.words, problem) for each in readings(observation)])
+    return phase_following(heard, observation.ray, action, problem, phase, asked=asked)

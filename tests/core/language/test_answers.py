@@ -146,7 +146,7 @@ def test_where_no_question_is_open(said: str, meaning: str) -> None:
 
 @pytest.mark.parametrize(("said", "meaning"), rows(STOPPED))
 def test_after_a_pick_that_was_stopped(said: str, meaning: str) -> None:
-    assert meant(said, After.STOPPED) == meaning
+    assert meant(said, After.HANDED) == meaning
 
 
 @pytest.mark.parametrize(
@@ -169,7 +169,7 @@ def test_a_word_that_items_own_is_an_answer_where_nothing_else_is_said(said: str
 
 
 @pytest.mark.parametrize("word", POSITIVE + NEGATIVE)
-@pytest.mark.parametrize("after", [After.NOTHING, After.QUESTION, After.STOPPED])
+@pytest.mark.parametrize("after", [After.NOTHING, After.QUESTION, After.HANDED])
 def test_a_word_of_the_paper_s_lists_stays_as_it_is(word: str, after: After) -> None:
     assert OURS.read((word,), after).words == (word,)
     assert OURS.read(("the", "marker", word), after).words == ("the", "marker", word)
@@ -222,7 +222,7 @@ def test_the_paper_s_answers_are_read_word_by_word() -> None:
     words = ("no", "not", "that", "one", "yes")
     assert PAPER.read(words, After.QUESTION) == Reading(words, Meaning.YES)
     assert PAPER.read(("yep",), After.QUESTION) == Reading(("yep",))
-    assert PAPER.read(("stop", "wrong", "marker"), After.STOPPED).words == ("no", "no", "marker")
+    assert PAPER.read(("stop", "wrong", "marker"), After.HANDED).words == ("no", "no", "marker")
     assert PAPER.read(("stop",), After.QUESTION).words == ("stop",)
     assert PAPER.answering(words) == {0, 1, 4}
     assert [PAPER.objects((word,)) for word in (*sorted(STOPS), *NEGATIVE)] == [True] * 8

@@ -19,6 +19,8 @@ from fetch_pomdp.adapters.web.server_messages import (
     with_insight,
     without_insight,
 )
+from fetch_pomdp.core.agent import Agent
+from fetch_pomdp.core.events import Event
 from fetch_pomdp.core.language.names import named
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.live.person import live_scene
@@ -61,8 +63,8 @@ class ConversationOpener:
         return Conversation(journal, send, view=view, speech=self._speech)
 
     def _welcome(self, journal: Journal, *, resumed: bool) -> ServerMessage:
-        agent = journal.agent()
-        past = (event_message(event, agent) for event in journal.events)
+        agent = journal.header.agent()
+        past = [_taken(event, agent) for event in journal.events]
         belief = belief_by_id(agent.belief, agent.scene) if self._insight else None
         state = talk_state(agent)
         return {
@@ -81,3 +83,9 @@ class ConversationOpener:
             "picked": journal.picked,
             "examples": examples(agent.scene),
         } | {**state, "begun": bool(journal.events) and state["begun"]}
+
+
+def _taken(event: Event, agent: Agent) -> ServerMessage | None:
+    """Let an agent go on from an event, and return that as a page is told of it."""
+    agent.take(event)
+    return event_message(event, agent)

@@ -13,7 +13,7 @@ from fetch_pomdp.core.explain import even
 from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.interaction import ASKING_AGAIN, CANCELLED, FAILED, LISTENING, NOT_UNDERSTOOD, OBJECTED
 from fetch_pomdp.core.language.names import words_besides_name
-from fetch_pomdp.core.language.unigram import split
+from fetch_pomdp.core.language.reading.telling import whose_is_open
 from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.live import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, Update
 from fetch_pomdp.core.scene import Scene
@@ -126,13 +126,21 @@ def event_message(event: Event, agent: Agent) -> ServerMessage | None:
         return {"type": "action", "outcome": event.outcome.value, **event_to_json(event, agent.scene)}
     if not event.observation.words and event.observation.ray is None:
         return None
-    parts = split(event.observation.words, agent.problem)
-    unknown = [word for word in parts.unknown if word not in COURTESY]
-    understood = bool(parts.base or parts.meaning)
+    said = agent.understood.utterance
+    unknown = [word for word in said.unknown if word not in COURTESY]
+    understood = bool(said.base or said.meaning) and not agent.understood.lost
     fields = event_to_json(event, agent.scene)
     if event.words:
         fields["observation"]["utterance"] = " ".join(texts(event.words))  # as it was heard, not as it was read
-    return {"type": "observed", "unknown": unknown, "understood": understood, **fields}
+    return {"type": "observed", "unknown": unknown, "understood": understood, "reading": _reading(agent), **fields}
+
+
+def _reading(agent: Agent) -> ServerMessage | None:
+    """Return what a reader made of the last words, None where it made nothing of them."""
+    heard = agent.understood.heard
+    if heard is None or agent.understood.lost or not heard.readings or not heard.readings[0].meaning.parts:
+        return None
+    return {"meaning": str(heard.readings[0].meaning), "whose": whose_is_open(heard)}
 
 
 def error_message(error: Exception, code: str = "refused") -> ServerMessage:

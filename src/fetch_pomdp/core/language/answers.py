@@ -27,7 +27,7 @@ from fetch_pomdp.core.language import english, german
 from fetch_pomdp.core.language.meaning import MEANINGS, STAND_INS, Meaning
 from fetch_pomdp.core.language.names import with_names
 from fetch_pomdp.core.language.phrases import Answers, Entry, Phrases, When, plain, spellings
-from fetch_pomdp.core.language.words import NEGATIVE, RESPONSES, STOPS
+from fetch_pomdp.core.language.words import NEGATIVE, RESPONSES, STOPS, tokenize
 
 HESITATIONS = english.HESITATIONS | german.HESITATIONS
 AROUND = HESITATIONS | english.AROUND | german.AROUND
@@ -48,7 +48,7 @@ class After(Enum):
 
     NOTHING = "nothing"  # that is open
     QUESTION = "question"  # "this one?", not answered yet
-    STOPPED = "stopped"  # a pick that the person stopped
+    HANDED = "handed"  # a hand-over, done or stopped, that the person may object to
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,11 @@ class Reading:
 
 
 class AnswerReader(Protocol):
-    """What an interaction asks about the words that it hears; they are lower case, as `words.tokenize` gives them."""
+    """What an interaction asks about the words that it hears; they are lower case, as `words` gives them."""
+
+    def words(self, text: str) -> tuple[str, ...]:
+        """Return the words of a text that was heard."""
+        ...
 
     def read(self, words: Sequence[str], after: After) -> Reading:
         """Return them as the words of an observation."""
@@ -78,9 +82,13 @@ class AnswerReader(Protocol):
 class PaperAnswers:
     """The AnswerReader of the paper's two lists, word by word: for people who speak no other words."""
 
+    def words(self, text: str) -> tuple[str, ...]:
+        """Return the words of a text."""
+        return tokenize(text)
+
     def read(self, words: Sequence[str], after: After) -> Reading:
         """Return the words as they are; after a pick that was stopped, those that stopped it as a no."""
-        if after is After.STOPPED:
+        if after is After.HANDED:
             words = [STAND_INS[Meaning.NO] if word in STOPS else word for word in words]
         found = [MEANINGS[word] for word in words if word in RESPONSES]
         return Reading(tuple(words), found[-1] if found else None)
@@ -126,11 +134,15 @@ class Lexicon:
     phrases: Phrases
     owned: frozenset[str] = frozenset()
 
+    def words(self, text: str) -> tuple[str, ...]:
+        """Return the words of a text."""
+        return tokenize(text)
+
     def read(self, words: Sequence[str], after: After) -> Reading:
         """Return the words of an observation, and what was meant."""
         words = with_names(words, self.owned)
         found = self._found(words, after)
-        if after is After.STOPPED:
+        if after is After.HANDED:
             found = [_Found(each.start, each.end, _denied(each.meaning)) for each in found]
         kept, meaning = _resolved(found)
         result: list[str] = []
@@ -144,13 +156,16 @@ class Lexicon:
 
     def answering(self, words: Sequence[str]) -> frozenset[int]:
         """Return the indices of words that say yes, no or unsure."""
-        about = {Meaning.YES, Meaning.NO, Meaning.UNSURE}
-        found = [each for each in self._found(words, After.QUESTION) if each.meaning in about]
+        return self.places(words, After.QUESTION, frozenset({Meaning.YES, Meaning.NO, Meaning.UNSURE}))
+
+    def places(self, words: Sequence[str], after: After, meanings: frozenset[Meaning]) -> frozenset[int]:
+        """Return the indices of the words of phrases that have one of these meanings."""
+        found = [each for each in self._found(words, after) if each.meaning in meanings]
         return frozenset(index for each in found for index in range(each.start, each.end))
 
     def objects(self, words: Sequence[str]) -> bool:
         """Return whether any of them denies or stops."""
-        return any(each.meaning in DENIALS for each in self._found(words, After.STOPPED))
+        return any(each.meaning in DENIALS for each in self._found(words, After.HANDED))
 
     def _found(self, words: Sequence[str], after: After) -> list[_Found]:
         """Return the phrases in order. Those that count alone are first taken for answers, then weighed."""
@@ -225,7 +240,7 @@ class _Scan:
         return Meaning.NO if before >= 0 and self.plain[before] in NEGATORS else Meaning.YES
 
     def _counts(self, entry: Entry, start: int, end: int, alone: frozenset[Meaning]) -> bool:
-        if self._after is After.STOPPED and entry.meaning in DENIALS:
+        if self._after is After.HANDED and entry.meaning in DENIALS:
             return True
         if all(word in self._owned for word in self._words[start:end]):
             return self._after is not After.NOTHING and entry.meaning in alone

@@ -9,7 +9,6 @@ from threading import RLock
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.hearing import texts, understood
-from fetch_pomdp.core.interaction import following
 from fetch_pomdp.core.live.inbox import Inbox
 from fetch_pomdp.core.live.updates import BeliefChanged, Did, Heard, Update
 from fetch_pomdp.core.observation import Observation
@@ -32,8 +31,7 @@ class Display:
 
     def __init__(self, agent: Agent, inbox: Inbox, listener: Callable[[Update], None]) -> None:
         self._agent, self._inbox, self._listener, self._lock = agent, inbox, listener, RLock()
-        self._start, self._asked, self._after = agent.posterior, agent.asked, agent.after
-        self._chances = agent.chances
+        self._start = agent.copy()  # as it was when the step began
         self._taken: tuple[Word, ...] = ()  # from the inbox, but not in the agent's belief yet
         self._shown = Observation()
         self._unseen: float | None = None  # s, when something came that was not looked at yet
@@ -52,19 +50,14 @@ class Display:
     def begin(self, time: float) -> None:
         """Tell the belief that the agent begins with, or goes on with after what was taken has been left out."""
         with self._lock:
-            self._start, self._asked, self._taken = self._agent.posterior, self._agent.asked, ()
-            self._chances = self._agent.chances
-            self._after = self._agent.after
-            self._shown = Observation()
-            self._tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=()))
+            self._start, self._taken, self._shown = self._agent.copy(), (), Observation()
+            self._tell(BeliefChanged(time, self._start.belief, provisional=False, words=()))
         self.look(time)
 
     def settle(self, event: Event, time: float) -> None:
         """Tell of an event that the agent has taken, and of the belief that the next step begins with."""
         with self._lock:
-            self._start, self._asked, self._shown = self._agent.posterior, self._agent.asked, Observation()
-            self._chances = self._agent.chances
-            self._after = following(event, self._agent)
+            self._start, self._shown = self._agent.copy(), Observation()
             if isinstance(event, Acted):
                 self._tell(Did(event))
             else:
@@ -72,7 +65,7 @@ class Display:
                 read = frozenset(event.words)
                 self._taken = tuple(word for word in self._taken if event.early and word not in read)
                 self._tell(Heard(event))
-                self._tell(BeliefChanged(time, self._start.probabilities, provisional=False, words=texts(event.words)))
+                self._tell(BeliefChanged(time, self._start.belief, provisional=False, words=texts(event.words)))
         self.look(time)
 
     def look(self, time: float) -> None:
@@ -102,12 +95,13 @@ class Display:
         pending = self._inbox.pending()
         words = self._taken + pending.words + (pending.partial or ())
         ray = median_ray(pending.frames, self._agent.problem)
-        observation = understood(words, self._agent.answers, self._after, ray)
+        agent = self._start.copy()
+        observation = understood(words, agent.answers, agent.after, ray)
         if observation == self._shown:
             return
         self._shown = observation
         try:
-            belief = self._start.updated(observation, self._asked, self._agent.problem, chances=self._chances)
+            agent.update(observation)
         except InputError:  # impossible by the model: the step's end says so, if the words stay what they are
             return
-        self._tell(BeliefChanged(time, belief.probabilities, provisional=True, words=texts(words)))
+        self._tell(BeliefChanged(time, agent.belief, provisional=True, words=texts(words)))

@@ -70,10 +70,10 @@ def test_a_gesture_counts_as_it_did_and_stays_after_a_correction() -> None:
 def test_what_was_heard_and_not_known_is_told() -> None:
     made = Agent(LINE, reader=TableReader())
     assert made.observe("the green snark").unknown == ("snark",)
-    assert made.heard is not None
-    assert str(made.heard.readings[0].meaning) == "green"
+    assert made.understood.heard is not None
+    assert str(made.understood.heard.readings[0].meaning) == "green"
     assert made.observe("").unknown == ()
-    assert made.heard is None
+    assert made.understood.heard is None
 
 
 def test_evidence_and_belief_agree() -> None:

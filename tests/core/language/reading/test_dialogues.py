@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import pytest
 
-from fetch_pomdp.core.language.reading.talk import Talk
+from fetch_pomdp.core.action import Point
+from fetch_pomdp.core.agent import Agent
 from tests.core.language.reading.dialogues import HELD_BACK, LOOKED_AT, TABLES
 from tests.core.language.reading.tables import READER
 
 
 def ends_well(line: str) -> bool:
     table, turns, item = (part.strip() for part in line.split("|"))
-    talk = Talk(TABLES[table], READER)
+    agent = Agent(TABLES[table], reader=READER)
     for turn in (each.strip() for each in turns.split(";")):
-        talk = talk.ask(int(turn[1:])) if turn.startswith("?") else talk.say(turn)
-    return int(talk.chances.argmax()) == int(item)
+        if turn.startswith("?"):
+            agent.did(Point(int(turn[1:])))
+        else:
+            agent.observe(turn)
+    return int(agent.belief.argmax()) == int(item)
 
 
 @pytest.mark.parametrize(("part", "least"), [(LOOKED_AT, 0.9), (HELD_BACK, 0.75)], ids=["looked at", "held back"])

@@ -43,7 +43,9 @@ class Context:
     before: Before = NOTHING_BEFORE
 
     def after_question(self, asked: int | None) -> Context:
-        """Return the context after a question about an item; None if none was asked yet."""
+        """Return the context after a question about an item, or after it was handed over; None if neither was."""
+        if asked is None:
+            return self
         return dataclasses.replace(self, before=dataclasses.replace(self.before, asked=asked))
 
 

@@ -1,95 +1,103 @@
-"""A talk about a table: what all that was said so far, the answers among it, say of each item.
-
-Answers are recognised by the lexicon (`language.answers`); what is said beside them is read by a reader. A correction
-("no wait, the green one", "actually the bowl") takes back what words and answers said before it.
+"""What a reader makes of what was said in the middle of a talk: answers are recognised by the lexicon
+(`language.answers`), and what is said beside them is read by the reader.
 
 Choice: "not" and "other" before more words are no answer but belong to these: "no, not the red one" is an answer and a
-description.
+description. A word of courtesy, or one that the reader knows and that tells nothing of any item ("the thing"), counts
+as nothing said, as in the paper.
 """
 
 from __future__ import annotations
 
-import dataclasses
-import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.language import english, german
-from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
-from fetch_pomdp.core.language.meaning import Meaning
-from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader
+from fetch_pomdp.core.language.answers import AROUND, After, Lexicon, Reading
+from fetch_pomdp.core.language.meaning import STAND_INS, Meaning
+from fetch_pomdp.core.language.reading.reader import Context, Reader
 from fetch_pomdp.core.language.reading.tokens import STOP, words_of
-from fetch_pomdp.core.scene import Scene
+from fetch_pomdp.core.language.unigram import Utterance, base_log_likelihood
+from fetch_pomdp.core.language.words import COURTESY
+from fetch_pomdp.core.observation import Said
+from fetch_pomdp.core.problem import Problem
 
 DESCRIBING = english.DESCRIBING | german.DESCRIBING
+ANSWERS = frozenset(Meaning)
+TELLS = 1e-3  # nats between two items, from which on words tell something of them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Talk:
-    """What was said about a scene. Immutable.
+class AsHeard:
+    """The AnswerReader of words that a reader will read: they are left as they were heard."""
 
-    words, answers: (n_items,), log-likelihoods of all that was said, up to a constant. asked: the item of the question
-    that is open. heard: what the reader made of the last words.
+    lexicon: Lexicon
+
+    def words(self, text: str) -> tuple[str, ...]:
+        """Return the words of a text, with the ends of its sentences."""
+        return words_of(text)
+
+    def read(self, words: Sequence[str], after: After) -> Reading:
+        """Return the words as they are, and what was meant."""
+        return Reading(tuple(words), self.lexicon.read(_spoken(words), after).meaning)
+
+    def answering(self, words: Sequence[str]) -> frozenset[int]:
+        """Return the indices of words that say yes, no or unsure."""
+        return self.lexicon.answering(words)
+
+    def objects(self, words: Sequence[str]) -> bool:
+        """Return whether any of them denies or stops."""
+        return self.lexicon.objects(_spoken(words))
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """Where in a talk something is said: what it follows, the item asked about last, and what was going on."""
+
+    after: After
+    asked: int | None
+    context: Context
+
+
+def said_by(reader: Reader, words: tuple[str, ...], lexicon: Lexicon, moment: Moment, problem: Problem) -> Said:
+    """Return what an utterance says as a reader reads it. words: lower case, as `AsHeard.words` gives them."""
+    answer, content = divided(words, lexicon, moment.after, asked=moment.asked is not None)
+    response = (STAND_INS[answer],) if answer in {Meaning.YES, Meaning.NO} else ()
+    if not any(word != STOP for word in content):
+        return Said(Utterance((), response, (), answer), base_log_likelihood((), problem))
+    heard = reader.read(content, problem.scene, moment.context.after_question(moment.asked))
+    unknown = tuple(word for word in heard.unknown if word not in AROUND and word not in COURTESY)
+    if np.ptp(heard.log_likelihood) < TELLS:
+        return Said(Utterance((), response, unknown, answer), base_log_likelihood((), problem), heard)
+    known = tuple(word for word in content if word not in heard.unknown and word != STOP)
+    return Said(Utterance(known, response, unknown, answer), heard.log_likelihood, heard)
+
+
+def _spoken(words: Sequence[str]) -> tuple[str, ...]:
+    return tuple(word for word in words if word != STOP)
+
+
+def divided(
+    words: tuple[str, ...], answers: Lexicon, after: After, *, asked: bool = False
+) -> tuple[Meaning | None, tuple[str, ...]]:
+    """Return the answer in what was said, and the words beside it that describe an item.
+
+    asked: whether there was a question, be it answered. Where none is open, words are an answer only if nothing else is
+    said, or if they end the request.
     """
-
-    scene: Scene
-    reader: Reader
-    context: Context = field(default_factory=Context)
-    asked: int | None = None
-    words: Vector = field(default_factory=lambda: np.zeros(0))
-    answers: Vector = field(default_factory=lambda: np.zeros(0))
-    heard: Heard | None = None
-
-    def __post_init__(self) -> None:
-        for name in ("words", "answers"):
-            if not len(getattr(self, name)):
-                object.__setattr__(self, name, np.zeros(len(self.scene.items)))
-
-    @property
-    def chances(self) -> Vector:
-        """The probability of each item, (n_items,), if all were as likely before."""
-        log = self.words + self.answers
-        chances = np.exp(log - log.max())
-        return np.asarray(chances / chances.sum())
-
-    def ask(self, item: int) -> Talk:
-        """Return the talk after the robot pointed at an item and asked "this one?"."""
-        return dataclasses.replace(self, asked=item, context=self.context.after_question(item))
-
-    def say(self, text: str) -> Talk:
-        """Return the talk after somebody said something."""
-        answer, content = divided(words_of(text), lexicon(self.scene.answers, self.scene.words), self.asked is not None)
-        talk = self._answered(answer)
-        heard = self.reader.read(content, self.scene, self.context)
-        if heard.corrects:
-            none = np.zeros(len(self.scene.items))
-            talk = dataclasses.replace(talk, words=none, answers=none)
-        return dataclasses.replace(talk, words=talk.words + heard.log_likelihood, context=heard.context, heard=heard)
-
-    def _answered(self, answer: Meaning | None) -> Talk:
-        """Return the talk after an answer to the open question (Eq. 6, Table I)."""
-        if self.asked is None or answer not in {Meaning.YES, Meaning.NO}:
-            return self
-        true = self.scene.model.p_truth
-        desired, other = (true, 1.0 - true) if answer is Meaning.YES else (1.0 - true, true)
-        said = np.full(len(self.scene.items), math.log(other))
-        said[self.asked] = math.log(desired)
-        return dataclasses.replace(self, answers=self.answers + said, asked=None)
-
-
-def divided(words: tuple[str, ...], answers: Lexicon, asked: bool) -> tuple[Meaning | None, tuple[str, ...]]:
-    """Return the answer in what was said, if a question is open, and the words beside it that describe an item."""
-    spoken = tuple(word for word in words if word != STOP)
-    if not asked or not spoken:
-        return None, words
-    places = [place for place, word in enumerate(words) if word != STOP]
-    found = answers.answering(spoken)
+    spoken = _spoken(words)
+    found = answers.places(spoken, after, ANSWERS) if spoken else frozenset[int]()
     kept = {
         index for index in found if spoken[index] in DESCRIBING and index + 1 < len(spoken) and index + 1 not in found
     }
-    gone = {places[index] for index in found - kept}
-    content = tuple(word for place, word in enumerate(words) if place not in gone)
     said = tuple(word for index, word in enumerate(spoken) if index in found - kept)
-    return answers.read(said, After.QUESTION).meaning if said else None, content
+    if not said:
+        return None, words
+    meaning = answers.read(said, after).meaning
+    rest = [word for index, word in enumerate(spoken) if index not in found - kept and word not in AROUND]
+    if after is After.NOTHING and meaning is not Meaning.CANCEL and (rest or not asked):
+        return None, words
+    places = [place for place, word in enumerate(words) if word != STOP]
+    gone = {places[index] for index in found - kept}
+    return meaning, tuple(word for place, word in enumerate(words) if place not in gone)

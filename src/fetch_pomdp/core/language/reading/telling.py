@@ -14,9 +14,13 @@ def told(heard: Heard) -> str:
     """Return what a reader understood as the robot would say it."""
     if heard.lost > LOST or not heard.readings:
         return "I did not understand" + _unknown(heard)
-    meaning = heard.readings[0].meaning
-    doubt = "" if not unnamed_sides(meaning) or whose(heard) is not None else "; your left or mine?"
-    return f"I understood: {meaning}{doubt}{_unknown(heard)}"
+    doubt = "; your left or mine?" if whose_is_open(heard) else ""
+    return f"I understood: {heard.readings[0].meaning}{doubt}{_unknown(heard)}"
+
+
+def whose_is_open(heard: Heard) -> bool:
+    """Return whether the likeliest reading names a left or right of which it is open whose it is."""
+    return bool(heard.readings) and unnamed_sides(heard.readings[0].meaning) and whose(heard) is None
 
 
 def whose(heard: Heard) -> Person | None:
