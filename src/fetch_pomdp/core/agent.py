@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import overload
 
@@ -18,14 +18,14 @@ from fetch_pomdp.core import observation as observations
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
-from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.events import Acted, Event, Likelihoods
 from fetch_pomdp.core.evidence import Evidence
 from fetch_pomdp.core.explain import explain
 from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader, lexicon
 from fetch_pomdp.core.language.meaning import Meaning
-from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader
+from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader, meanwhile
 from fetch_pomdp.core.language.reading.talk import AsHeard, Moment, said_by
 from fetch_pomdp.core.language.reading.telling import LOST
 from fetch_pomdp.core.language.unigram import Utterance
@@ -45,13 +45,15 @@ class Understood:
     """What an observation says.
 
     utterance: its words, split. meant: what all readings together most likely say. parts: the factors of Eq. 3. heard:
-    what a reader made of the words beside an answer, None where there are none or no reader reads.
+    what a reader made of the words beside an answer, None where there are none or no reader reads. read: what it said of
+    the items, for `Observed`; () where words are read as in the paper.
     """
 
     utterance: Utterance
     meant: Meant
     parts: Parts
     heard: Heard | None = None
+    read: Likelihoods = ()
 
     @property
     def lost(self) -> bool:
@@ -113,6 +115,12 @@ class Agent:
     def copy(self) -> Agent:
         """Return an agent that goes on from here by itself; planner and reader are shared."""
         return copy.copy(self)  # all that changes is immutable
+
+    def quick(self) -> Agent:
+        """Return a `copy` that reads with the quick reader of a slow one."""
+        agent = self.copy()
+        agent.reader = meanwhile(agent.reader)
+        return agent
 
     @property
     def belief(self) -> Vector:
@@ -179,24 +187,43 @@ class Agent:
         """
         if not isinstance(observation, Observation):
             raise ObservationError(f"found {shown(observation)}, expected Observation(...)", field="observation")
-        understood = self.understand(observation)
+        return self._update(observation, ())
+
+    def _update(self, observation: Observation, read: Likelihoods) -> Utterance:
+        understood = self.understand(observation, read)
         if understood.utterance.meaning is Meaning.CANCEL:
             self.begin()
-            understood = self.understand(observation)
+            understood = self.understand(observation, read)
         self._take_in(observation, understood)
         return understood.utterance
 
-    def understand(self, observation: Observation) -> Understood:
-        """Return what an observation says as things stand; nothing changes."""
-        said = [self._said(each.words) for each in observations.readings(observation)]
-        parts = observations.parts_of(observation, said, self.asked, self.problem, self.chances)
-        best = said[[each.words for each in observations.readings(observation)].index(observation.words)]
-        return Understood(best.utterance, observations.meant(observation, said), parts, best.heard)
+    def understand(self, observation: Observation, read: Likelihoods = ()) -> Understood:
+        """Return what an observation says as things stand; nothing changes.
 
-    def _said(self, words: tuple[str, ...]) -> Said:
-        if self.reader is None:
+        read: what a reader said of the words of each of its readings, where that is on record, (readings, n_items).
+
+        Choice: a reader that takes its time (`reader.meanwhile`) reads the words as they stand, and a quick one the
+        recogniser's other readings, and what is on record.
+        """
+        readings = observations.readings(observation)
+        best = [each.words for each in readings].index(observation.words)
+        quick = meanwhile(self.reader)
+        said = [
+            self._said(each.words, self.reader if place == best and not read else quick)
+            for place, each in enumerate(readings)
+        ]
+        if read:
+            said = [replace(each, words=np.array(words)) for each, words in zip(said, read, strict=True)]
+        parts = observations.parts_of(observation, said, self.asked, self.problem, self.chances)
+        spoken = self.reader is not None and any(each.words for each in readings)
+        recorded = tuple(tuple(each.words.tolist()) for each in said) if spoken else ()
+        heard = observations.meant(observation, said)
+        return Understood(said[best].utterance, heard, parts, said[best].heard, recorded)
+
+    def _said(self, words: tuple[str, ...], reader: Reader | None) -> Said:
+        if reader is None:
             return observations.said_in(words, self.problem)
-        return said_by(self.reader, words, self._lexicon, Moment(self.after, self.asked, self._context), self.problem)
+        return said_by(reader, words, self._lexicon, Moment(self.after, self.asked, self._context), self.problem)
 
     def _take_in(self, observation: Observation, understood: Understood) -> None:
         heard = understood.heard
@@ -255,7 +282,7 @@ class Agent:
             return
         if event.anew:
             self._begin_again()
-        self.update(event.observation)
+        self._update(event.observation, event.read)
 
     def begun(self) -> Agent:
         """Return an agent that begins with another request after a hand-over, which "the other one" may refer to."""

@@ -115,8 +115,7 @@ class _Interaction:
     def events(self, most_steps: int) -> Iterator[Event]:
         if self._timing.before and self._agent.handed is None:
             observed = self._listened(self._timing.before, self._agent.after)
-            self._agent.take(observed)
-            yield observed
+            yield self._taken(observed)
         steps = 0
         while self._agent.handed is not None or steps < most_steps:
             if self._agent.handed is None:
@@ -142,8 +141,7 @@ class _Interaction:
         if isinstance(decision.action, Point):
             early = self._senses.answers(self._now - timing.overlap, self._answers, agent.after)
             if early is not None:
-                agent.take(early)
-                yield early
+                yield self._taken(early)
         acted = self._acted(decision, outcome)
         yield acted
         if isinstance(acted.action, Pick):
@@ -153,15 +151,20 @@ class _Interaction:
             self._robot.say(OBJECTED if acted.objected else FAILED)
             self._now = self._pace.time(self._now)
         observed = self._listened(listening, agent.after)
-        agent.take(observed)
+        taken = self._taken(observed)
         self._reply(observed, agent.understood, waited=isinstance(acted.action, Wait))
-        yield observed
+        yield taken
 
     def _acted(self, decision: Decision, result: Outcome | Failure) -> Acted:
         outcome, reason = (Outcome.FAILED, result.reason) if isinstance(result, Failure) else (result, "")
         acted = Acted(decision.action, outcome, decision, self._now, decision.passes, reason)
         self._agent.take(acted)
         return acted
+
+    def _taken(self, observed: Observed) -> Observed:
+        """Let the agent take in what was observed; return it with what was read in it."""
+        self._agent.take(observed)
+        return dataclasses.replace(observed, read=self._agent.understood.read)
 
     def _listened(self, seconds: float, after: After) -> Observed:
         """Listen for some time, or on to the end of an utterance."""
@@ -179,16 +182,14 @@ class _Interaction:
             objects = self._answers.read(words, After.HANDED).meaning is Meaning.NO
             if objects and not asks_for_another(words, self._answers):
                 yield self._taken_back(handed, observed)
-                self._agent.take(observed)
-                yield observed
+                yield self._taken(observed)
                 return
             begun = dataclasses.replace(
                 observed, observation=understood(observed.words, self._answers, After.NOTHING, ray), anew=True
             )
             more = objects or self._agent.begun().understand(begun.observation).utterance.base
             if more or (ray is not None and self._lowered):
-                self._agent.take(begun)
-                yield begun
+                yield self._taken(begun)
                 return
             self._lowered = self._lowered or ray is None
             self._reply(observed, self._agent.understand(observed.observation), waited=False)

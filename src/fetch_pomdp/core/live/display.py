@@ -95,7 +95,7 @@ class Display:
         pending = self._inbox.pending()
         words = self._taken + pending.words + (pending.partial or ())
         ray = median_ray(pending.frames, self._agent.problem)
-        agent = self._start.copy()
+        agent = self._start.quick()
         observation = understood(words, agent.answers, agent.after, ray)
         if observation == self._shown:
             return

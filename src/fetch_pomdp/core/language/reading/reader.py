@@ -8,7 +8,8 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from threading import Lock
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -83,6 +84,21 @@ class Reader(Protocol):
         ...
 
 
+@runtime_checkable
+class SlowReader(Reader, Protocol):
+    """A Reader that takes its time, such as one that asks a server."""
+
+    @property
+    def meanwhile(self) -> Reader:
+        """A quick reader for what is shown while somebody still speaks, and for what is on record already."""
+        ...
+
+
+def meanwhile(reader: Reader | None) -> Reader | None:
+    """Return the quick reader of a slow one; any other is quick."""
+    return reader.meanwhile if isinstance(reader, SlowReader) else reader
+
+
 @dataclass(frozen=True, slots=True)
 class Parsed:
     """The readings of an utterance before they meet the table, and the shares of it that are unknown and left out."""
@@ -116,16 +132,24 @@ class _Place:
 
 
 class TableReader:
-    """Reads with a grammar, with weights learnt from what people said. Keeps what it computed of the last scenes."""
+    """Reads with a grammar, with weights learnt from what people said. Keeps what it computed of the last scenes.
+
+    Safe from any thread.
+    """
 
     def __init__(self, language: str = "english", weights: Weights | None = None) -> None:
         self.grammar = grammar(language)
         self.weights = Weights.of(shipped()) if weights is None else weights
         self._prior = view_prior(self.weights)
         self._places: dict[int, _Place] = {}
+        self._lock = Lock()
 
     def read(self, words: Sequence[str], scene: Scene, context: Context) -> Heard:
         """Read what was said about a scene."""
+        with self._lock:
+            return self._read(words, scene, context)
+
+    def _read(self, words: Sequence[str], scene: Scene, context: Context) -> Heard:
         place = self._place(scene)
         parsed = parse(words, place.table.vocabulary, self.grammar, context.before)
         views = self._prior if context.views is None else np.array(context.views)
