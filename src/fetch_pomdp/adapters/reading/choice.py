@@ -1,31 +1,51 @@
-"""Which reader reads what people say: our grammar unless another is named, as "words" or "table:german"."""
+"""Which reader reads what people say: our grammar unless another is named."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+from fetch_pomdp.adapters.reading.completions import Method, Samples, Scores
+from fetch_pomdp.adapters.reading.connection import Connection
+from fetch_pomdp.adapters.reading.endpoint import EndpointReader
+from fetch_pomdp.core.language.reading.calibration import Calibration, calibration_of
 from fetch_pomdp.core.language.reading.grammar import LANGUAGES
 from fetch_pomdp.core.language.reading.reader import Reader, TableReader
 from fetch_pomdp.core.language.reading.weights import Weights, weights_of
 from fetch_pomdp.errors import InputError
 
 WORDS, TABLE = "words", "table"
+METHODS: dict[str, Method] = {"openai": Scores(), "openai-samples": Samples()}
 DEFAULT = TABLE
-EXPECTED = f"expected {WORDS}, {TABLE} or {TABLE}:LANGUAGE, of {' and '.join(LANGUAGES)}"
+EXPECTED = f"expected {WORDS}, {TABLE}, {TABLE}:LANGUAGE (of {', '.join(LANGUAGES)}), " + " or ".join(
+    f"{method}:MODEL@URL" for method in METHODS
+)
+LIMIT = 2.0  # s, of a model's answer
+_SERVED = re.compile(rf"({'|'.join(METHODS)}):(\S+)@(https?://[^\s@?#]+)")
 
 
-def reader_named(name: str = DEFAULT, *, weights: Path | None = None) -> Reader | None:
+def reader_named(name: str = DEFAULT, *, weights: Path | None = None, limit: float = LIMIT) -> Reader | None:
     """Return a reader by name, as `Agent(reader=...)` takes it: None is the paper's, word by word (Eq. 4, 5).
 
-    name: words, table or table:LANGUAGE. weights: a file of `fit-reader`, in place of what comes with the package.
-    Raises InputError for another name, or for weights that the reader has no use for.
+    name: words, table, table:LANGUAGE, openai:MODEL@URL (which scores the items) or openai-samples:MODEL@URL (whose
+    answers are counted). weights: a file of `fit-reader` for that reader. limit: s, after which ours reads in a model's
+    place. Raises InputError for another name, or for weights that the reader has no use for; MissingExtraError.
     """
-    kind, _, rest = name.partition(":")
     if name == WORDS:
         if weights is not None:
             raise InputError(f"found a file, expected none with {WORDS}, which has no weights", field="weights")
         return None
-    if name == TABLE or (kind == TABLE and rest in LANGUAGES):
+    kind, _, language = name.partition(":")
+    if name == TABLE or (kind == TABLE and language in LANGUAGES):
         learnt = None if weights is None else Weights.of(weights_of(weights))
-        return TableReader(rest or LANGUAGES[0], learnt)
-    raise InputError(f"found {name!r}, {EXPECTED}", field="reader")
+        return TableReader(language or LANGUAGES[0], learnt)
+    served = _SERVED.fullmatch(name)
+    if served is None:
+        raise InputError(f"found {name!r}, {EXPECTED}", field="reader")
+    method, model, url = served.groups()
+    return EndpointReader(
+        model=model,
+        connection=Connection(url, limit),
+        method=METHODS[method],
+        calibration=Calibration() if weights is None else calibration_of(weights),
+    )

@@ -12,11 +12,14 @@ LOST = 0.5  # chance of not having understood, from which on it says so
 
 def told(heard: Heard) -> str:
     """Return what a reader understood as the robot would say it."""
-    if heard.lost > LOST or not heard.readings:
-        return "I did not understand" + _unknown(heard)
+    note = f" ({heard.note})" if heard.note else ""
+    if heard.lost > LOST or not (heard.readings or heard.note):
+        return f"I did not understand{_unknown(heard)}{note}"
+    if not heard.readings:
+        return f"I understood{_unknown(heard)}{note}"
     meaning = heard.readings[0].meaning
     doubt = "" if not unnamed_sides(meaning) or whose(heard) is not None else "; your left or mine?"
-    return f"I understood: {meaning}{doubt}{_unknown(heard)}"
+    return f"I understood: {meaning}{doubt}{_unknown(heard)}{note}"
 
 
 def whose(heard: Heard) -> Person | None:
