@@ -88,5 +88,9 @@ class RobotDescriptionError(InputError):
     """A file that describes a robot."""
 
 
+class EndpointError(FetchPomdpError):
+    """A model that others serve did not answer, or not as its interface has it; the message goes on after its name."""
+
+
 class MissingExtraError(FetchPomdpError, ImportError):
     """An optional library is not installed; the message is the line that installs it."""

@@ -14,6 +14,7 @@ import typer
 from rich.console import Console
 from rich.markup import escape
 
+from fetch_pomdp.adapters.reading.choice import reader_named
 from fetch_pomdp.adapters.robot.console import ConsoleRobot
 from fetch_pomdp.adapters.typed import TypedPerson
 from fetch_pomdp.adapters.vision.recorded import RecordedSkeleton
@@ -24,6 +25,7 @@ from fetch_pomdp.cli.options import (
     Json,
     ModelFile,
     PlannerName,
+    ReaderName,
     RobotName,
     SceneName,
     Seed,
@@ -38,6 +40,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
 from fetch_pomdp.core.interaction import Timing, interact
 from fetch_pomdp.core.language.names import named, words_besides_name
+from fetch_pomdp.core.language.reading.catalogue import DEFAULT as READER
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import prepare
@@ -78,6 +81,7 @@ def fetch(
     skeleton: Skeleton = None,
     rate: Rate = 16_000,
     ears: Ears = None,
+    reader: ReaderName = READER,
     planner: PlannerName = None,
     depth: Depth = None,
     width: Width = None,
@@ -109,9 +113,9 @@ def fetch(
         table.index(target, "target")
     header = Header(
         scene=table, scene_name=scene_name, planner=DEFAULT if planner is None else planner, parameters=parameters,
-        seed=seed or 0, target=target, person=person, order=order, paradigm=paradigm,
+        seed=seed or 0, reader=reader, target=target, person=person, order=order, paradigm=paradigm,
     )  # fmt: skip
-    agent = header.agent()
+    agent = header.agent(reader=reader_named(reader))
     console = Terminal(stderr=json_lines)
     with contextlib.ExitStack() as open_files:
         typed = audio is None and skeleton is None

@@ -16,8 +16,9 @@ from urllib.parse import quote
 
 import typer
 
-from fetch_pomdp.cli.options import Ears
+from fetch_pomdp.cli.options import Ears, ReaderName
 from fetch_pomdp.cli.participants import DATABASE
+from fetch_pomdp.core.language.reading.catalogue import DEFAULT as READER
 from fetch_pomdp.errors import InputError
 
 if TYPE_CHECKING:
@@ -68,6 +69,7 @@ def serve_page(
     study: StudyFile = None,
     database: Database = None,
     ears: Ears = None,
+    reader: ReaderName = READER,
     researcher_token: ResearcherToken = None,
     preview: Preview = False,
 ) -> None:
@@ -92,7 +94,7 @@ def serve_page(
     opener: ConversationOpener | StudyApp
     with _kept_at(database, preview=preview) as url:
         if study is None:
-            opener = ConversationOpener(data, insight=not no_insight, speech=speech)
+            opener = ConversationOpener(data, insight=not no_insight, speech=speech, reader=reader)
             app = create_app(config, opener, voice=speech.voice)
         else:
             secret = researcher_token or secrets.token_urlsafe(24)

@@ -89,7 +89,7 @@ def header_from_json(data: Mapping[str, Any]) -> Header:
         planner=planner,
         parameters=parameters,
         seed=_whole(data.get("seed", 0), "seed"),
-        reader=checks.text(data.get(READER, WORDS), READER, "a reader's name", EventError),
+        reader=_reader(data.get(READER, WORDS)),
         target=target,
         **_trial(data),
     )
@@ -126,6 +126,12 @@ def _scene(value: object) -> Scene:
         return Scene.from_mapping(data)
     except InputError as error:
         raise error.within("scene") from None
+
+
+def _reader(value: object) -> str:
+    name = checks.text(value, READER, "a reader's name", EventError)
+    recorded_reader(name)
+    return name
 
 
 def _names(value: object) -> bool:

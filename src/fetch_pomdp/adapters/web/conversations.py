@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
+from fetch_pomdp.adapters.reading.choice import reader_named
 from fetch_pomdp.adapters.web.conversation import Conversation
 from fetch_pomdp.adapters.web.ears import Speech
 from fetch_pomdp.adapters.web.examples import examples
@@ -22,6 +24,7 @@ from fetch_pomdp.adapters.web.server_messages import (
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Event
 from fetch_pomdp.core.language.names import named
+from fetch_pomdp.core.language.reading.catalogue import DEFAULT as READER
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.base import prepare
@@ -33,11 +36,13 @@ class ConversationOpener:
     """A SessionOpener: table and planner are the person's choice.
 
     data: a folder for the journals, None to keep them in memory. insight: whether a person may see what the robot
-    believes and why it acts. Raises InputError if the folder cannot be made.
+    believes and why it acts. reader: what reads the words, by its name (`reading.choice`). Raises InputError if the
+    folder cannot be made, or for a reader of another name; MissingExtraError.
     """
 
-    def __init__(self, data: Path | None, *, insight: bool, speech: Speech) -> None:
+    def __init__(self, data: Path | None, *, insight: bool, speech: Speech, reader: str = READER) -> None:
         self._journals, self._insight, self._speech = Journals(data), insight, speech
+        self._reader_name, self._reader = reader, reader_named(reader)
 
     def session_name(self, hello: Hello) -> str | None:
         """Return the name of the conversation that a page comes back to, None for a new page."""
@@ -50,7 +55,8 @@ class ConversationOpener:
 
     def new(self, hello: Hello, send: Send) -> Conversation:
         """Return a new conversation. Raises MessageError or SceneError for an invalid choice of the page."""
-        return self._conversation(self._journals.new(header_of(hello)), send, resumed=False)
+        header = dataclasses.replace(header_of(hello), reader=self._reader_name)
+        return self._conversation(self._journals.new(header), send, resumed=False)
 
     def warm_up(self) -> None:
         """Compile the planner and solve the built-in tables before the first page comes."""
@@ -58,6 +64,7 @@ class ConversationOpener:
             prepare(planner_named(DEFAULT), Problem(named(live_scene(name))))
 
     def _conversation(self, journal: Journal, send: Send, *, resumed: bool) -> Conversation:
+        journal.reader = self._reader if journal.header.reader == self._reader_name else None
         send(self._welcome(journal, resumed=resumed))
         view = with_insight if self._insight else without_insight
         return Conversation(journal, send, view=view, speech=self._speech)

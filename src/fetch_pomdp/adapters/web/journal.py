@@ -15,6 +15,7 @@ from typing import Protocol
 from fetch_pomdp.core.action import Pick
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event
+from fetch_pomdp.core.language.reading.reader import Reader
 from fetch_pomdp.errors import EventError, InputError
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.recordings import EventLog
@@ -38,7 +39,8 @@ class Sink(Protocol):
 class Journal:
     """One interaction: what it is about, and its events, in memory and in a sink if there is one.
 
-    clock: the time (s) on the interaction's clock when its person left, where that is known.
+    clock: the time (s) on the interaction's clock when its person left, where that is known. reader: what reads the
+    words, where that is none of ours.
     """
 
     secret: str
@@ -46,6 +48,7 @@ class Journal:
     events: list[Event] = field(default_factory=list)
     sink: Sink | None = None
     clock: float = 0.0
+    reader: Reader | None = None
 
     @property
     def name(self) -> str:
@@ -66,7 +69,7 @@ class Journal:
 
     def agent(self) -> Agent:
         """Return an agent that has taken in all of it."""
-        agent = self.header.agent()
+        agent = self.header.agent(reader=self.reader)
         for event in self.events:
             agent.take(event)
         return agent

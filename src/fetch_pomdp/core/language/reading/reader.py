@@ -65,6 +65,7 @@ class Heard:
     log_likelihood: (n_items,), log p(words | item) up to a constant. readings: likeliest first. unknown: words that
     nobody knows. views: (views,), the chance of each view (`table.VIEWS`). lost: how likely the utterance was not
     understood. corrects: whether it takes back what was said before. context: for what is said next.
+    note: what is to be known of who read it, where that is not clear.
     """
 
     log_likelihood: Vector
@@ -74,6 +75,7 @@ class Heard:
     lost: float
     corrects: bool
     context: Context
+    note: str = ""
 
 
 class Reader(Protocol):

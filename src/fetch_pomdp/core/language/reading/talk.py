@@ -16,6 +16,7 @@ import numpy as np
 from fetch_pomdp.core.language import english, german
 from fetch_pomdp.core.language.answers import AROUND, After, Lexicon, Reading
 from fetch_pomdp.core.language.meaning import STAND_INS, Meaning
+from fetch_pomdp.core.language.names import with_names
 from fetch_pomdp.core.language.reading.reader import Context, Reader
 from fetch_pomdp.core.language.reading.tokens import STOP, words_of
 from fetch_pomdp.core.language.unigram import Utterance, base_log_likelihood
@@ -39,8 +40,8 @@ class AsHeard:
         return words_of(text)
 
     def read(self, words: Sequence[str], after: After) -> Reading:
-        """Return the words as they are, and what was meant."""
-        return Reading(tuple(words), self.lexicon.read(_spoken(words), after).meaning)
+        """Return the words as they are, with the names of items among them (`names`), and what was meant."""
+        return Reading(with_names(words, self.lexicon.owned), self.lexicon.read(_spoken(words), after).meaning)
 
     def answering(self, words: Sequence[str]) -> frozenset[int]:
         """Return the indices of words that say yes, no or unsure."""

@@ -12,10 +12,13 @@ LOST = 0.5  # chance of not having understood, from which on it says so
 
 def told(heard: Heard) -> str:
     """Return what a reader understood as the robot would say it."""
-    if heard.lost > LOST or not heard.readings:
-        return "I did not understand" + _unknown(heard)
+    note = f" ({heard.note})" if heard.note else ""
+    if heard.lost > LOST or not (heard.readings or heard.note):
+        return f"I did not understand{_unknown(heard)}{note}"
+    if not heard.readings:
+        return f"I understood{_unknown(heard)}{note}"
     doubt = "; your left or mine?" if whose_is_open(heard) else ""
-    return f"I understood: {heard.readings[0].meaning}{doubt}{_unknown(heard)}"
+    return f"I understood: {heard.readings[0].meaning}{doubt}{_unknown(heard)}{note}"
 
 
 def whose_is_open(heard: Heard) -> bool:

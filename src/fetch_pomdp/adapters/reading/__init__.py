@@ -1,0 +1,1 @@
+"""Readers of what people say, by name, and a door to models that others serve."""
