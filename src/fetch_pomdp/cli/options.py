@@ -40,8 +40,9 @@ Ears = Annotated[
 ReaderName = Annotated[
     str,
     typer.Option(
-        "--reader", metavar="NAME", help="What reads the words: table, table:german, words or openai:MODEL@URL "
-        "(docs/reading.md).",
+        "--reader",
+        metavar="NAME",
+        help="What reads the words: table, table:german, words or openai:MODEL@URL (docs/reading.md).",
     ),
 ]
 Seed = Annotated[int | None, typer.Option(min=0, help="The same seed gives the same result.  [default: 0]")]

@@ -15,6 +15,7 @@ from fetch_pomdp.core.explanation import deed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.language.words import COURTESY
+from fetch_pomdp.core.language.reading.telling import told
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.scene import Scene
 
@@ -41,8 +42,11 @@ def _perceived(event: Observed, agent: Agent) -> str:
     observation, parts = event.observation, []
     if observation.words:
         parts.append(f'hears "{escape(" ".join(texts(event.words) or observation.words))}"')
+        heard = agent.understood.heard
+        if heard is not None and (heard.note or agent.understood.utterance.base):
+            parts.append(f"[dim]{escape(told(heard))}[/dim]")
         unknown = [word for word in agent.understood.utterance.unknown if word not in COURTESY]
-        if unknown:
+        if unknown and heard is None:
             parts.append(f"[yellow]not understood: {escape(', '.join(unknown))}[/yellow]")
     if observation.ray is not None:
         found = angles(observation.ray, agent.problem)

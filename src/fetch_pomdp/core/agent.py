@@ -45,8 +45,8 @@ class Understood:
     """What an observation says.
 
     utterance: its words, split. meant: what all readings together most likely say. parts: the factors of Eq. 3. heard:
-    what a reader made of the words beside an answer, None where there are none or no reader reads. read: what it said of
-    the items, for `Observed`; () where words are read as in the paper.
+    what a reader made of the words beside an answer, None where there are none or no reader reads. read: what it said
+    of the items, for `Observed`; () where words are read as in the paper.
     """
 
     utterance: Utterance

@@ -19,8 +19,8 @@ class Observed:
 
     spoken: the words that the person really said, where somebody wrote them down; no belief reads them. early: whether
     it was heard while the next action, which had been decided, went on. anew: whether it begins another request, after
-    a hand-over. read: where a reader reads, log p(words | item) of each reading of the observation, (readings, n_items),
-    so that a replay needs no reader; it is known when the agent has taken the event.
+    a hand-over. read: where a reader reads, log p(words | item) of each reading of the observation, (readings,
+    n_items), so that a replay needs no reader; it is known when the agent has taken the event.
     """
 
     observation: Observation

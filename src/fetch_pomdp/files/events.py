@@ -101,7 +101,9 @@ def _read(value: object, n_readings: int, n_items: int) -> Likelihoods:
         raise EventError(f"found {shown(value)}, {expected}", field="read")
     for place, row in enumerate(value):
         if not isinstance(row, list) or len(row) != n_items:
-            raise EventError(f"found {shown(row)}, expected a number for each of {n_items} items", field=f"read[{place}]")
+            raise EventError(
+                f"found {shown(row)}, expected a number for each of {n_items} items", field=f"read[{place}]"
+            )
     return tuple(
         tuple(checks.number(each, f"read[{place}]", "a log-likelihood", EventError) for each in row)
         for place, row in enumerate(value)

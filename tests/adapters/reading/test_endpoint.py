@@ -152,8 +152,8 @@ def test_an_agent_reads_by_it(served: str) -> None:
     agent = Agent("ambiguous", reader=reader("words", served))
     agent.observe("the spoon please")
     assert agent.scene.items[int(agent.belief.argmax())].id.startswith("spoon")
-    assert agent.heard is not None
-    assert agent.heard.note == "read by words"
+    assert agent.understood.heard is not None
+    assert agent.understood.heard.note == "read by words"
 
 
 def test_nothing_is_asked_about_silence_or_after_the_end(served: str) -> None:

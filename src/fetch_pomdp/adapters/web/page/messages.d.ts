@@ -67,6 +67,7 @@ export interface Observed extends TalkState {
   anew?: boolean; // begins another request
   unknown: string[];
   understood: boolean;
+  reading: { meaning: string; whose: boolean } | null; // whose: whether it is open whose left or right is meant
   observation: { utterance?: string; head?: Point3; wrist?: Point3 };
 }
 export interface Acted extends TalkState {

@@ -110,11 +110,12 @@ export function leaders(belief) {
 }
 
 /** @param {Observed} event */
-function perceived({ observation, unknown, anew }) {
+function perceived({ observation, unknown, reading, anew }) {
   const parts = [];
   if (anew) parts.push(text("anew"));
   if (observation.utterance) parts.push(text("heard", { words: observation.utterance }));
   if (observation.head) parts.push(text("pointed"));
+  if (reading) parts.push(text(reading.whose ? "read_whose" : "read", { meaning: reading.meaning }));
   if (unknown.length) parts.push(text("unknown", { words: unknown.join(", ") }));
   return parts.join("; ");
 }
