@@ -23,12 +23,11 @@ from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
 from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
-from fetch_pomdp.core.language.meaning import STAND_INS, Meaning
 from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader
 from fetch_pomdp.core.language.reading.talk import divided
 from fetch_pomdp.core.language.reading.tokens import STOP, words_of
 from fetch_pomdp.core.language.unigram import Utterance
-from fetch_pomdp.core.language.words import tokenize
+from fetch_pomdp.core.language.words import STAND_INS, Meaning, tokenize
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation, Parts
 from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner

@@ -30,10 +30,9 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.hearing import texts, understood
 from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader, asks_for_another
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.names import is_name
 from fetch_pomdp.core.language.unigram import split
-from fetch_pomdp.core.language.words import COURTESY
+from fetch_pomdp.core.language.words import COURTESY, Meaning
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Failure, Outcome, Recognizer, Robot, SkeletonSource
 from fetch_pomdp.core.senses import Pace, Senses, StreamPace

@@ -18,9 +18,9 @@ import numpy as np
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.language import english, german
 from fetch_pomdp.core.language.answers import After, Lexicon, lexicon
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader
 from fetch_pomdp.core.language.reading.tokens import STOP, words_of
+from fetch_pomdp.core.language.words import Meaning
 from fetch_pomdp.core.scene import Scene
 
 DESCRIBING = english.DESCRIBING | german.DESCRIBING
