@@ -32,10 +32,9 @@ from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.study.calibrate.calibration import Calibration, calibrate
-from fetch_pomdp.study.calibrate.modelled import modelled
 from fetch_pomdp.study.calibrate.steps import Interaction
-from fetch_pomdp.study.clock import Durations
-from fetch_pomdp.study.encounter import encounter
+from fetch_pomdp.study.durations import Durations
+from fetch_pomdp.study.encounter import encounter, modelled
 from fetch_pomdp.study.people.parameters import People
 
 ROOT = Path(__file__).parent.parent

@@ -34,7 +34,7 @@ from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.interaction import LISTENING
 from fetch_pomdp.core.language.answers import After
-from fetch_pomdp.core.language.meaning import Meaning
+from fetch_pomdp.core.language.words import Meaning
 from noises import Floats
 from voices import RATE, TOOLS, missing_tools, said
 

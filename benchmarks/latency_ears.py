@@ -21,7 +21,7 @@ import numpy as np
 from fetch_pomdp.adapters.speech.silero import Silero, model
 from fetch_pomdp.adapters.speech.sphinx import SphinxTranscriber
 from fetch_pomdp.adapters.speech.stream import Stream, listened_for
-from fetch_pomdp.adapters.speech.transcriber import Transcriber
+from fetch_pomdp.adapters.speech.utterances import Transcriber
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.core.scene import Scene
 from voices import RATE, missing_tools, read, record

@@ -26,7 +26,7 @@ ASKED = (
 def patience() -> Iterator[None]:
     """Where nothing is compiled yet, what a command says of that is in no test's way."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(compiling, "PATIENCE", 600.0)
+        patch.setattr(compiling, "TOLD_AFTER", 600.0)
         yield
 
 

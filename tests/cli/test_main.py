@@ -105,7 +105,7 @@ WHILE_COMPILING = """
 import os, signal
 from numba.core import event
 from fetch_pomdp.cli import compiling
-compiling.PATIENCE = 600.0
+compiling.TOLD_AFTER = 600.0
 class Listener(event.Listener):
     def on_start(self, event): pass
     def on_end(self, event): os.kill(os.getpid(), signal.SIGINT)
@@ -216,6 +216,6 @@ def test_compiling_is_told_of_only_when_it_takes_long(
             time.sleep(seconds)
         return capfd.readouterr().err
 
-    monkeypatch.setattr(compiling, "PATIENCE", 0.1)
+    monkeypatch.setattr(compiling, "TOLD_AFTER", 0.1)
     assert compile_for(0.0) == ""
     assert compile_for(0.5) == compiling.MESSAGE + "\n"

@@ -16,9 +16,9 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language.answers import After
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.phrases import Answers
 from fetch_pomdp.core.language.unigram import Utterance
+from fetch_pomdp.core.language.words import Meaning
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.design import Paradigm, Study
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.people.parameters import People
 
 PARADIGMS = {

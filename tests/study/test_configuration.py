@@ -12,9 +12,9 @@ import pytest
 from fetch_pomdp.core.language.phrases import Answers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
-from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.configuration import difference, digest, load_study, to_plain
 from fetch_pomdp.study.design import PAPER, Paradigm, Study
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.people.parameters import People
 
 WHOLE = """

@@ -16,7 +16,7 @@ from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.clock import Durations
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.encounter import Encounter, encounter
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.trial import Assignment, scored

@@ -33,8 +33,8 @@ from fetch_pomdp.study.crew import Crew
 from fetch_pomdp.study.design import assignments
 from fetch_pomdp.study.encounter import Encounter
 from fetch_pomdp.study.experiment import play, run
-from fetch_pomdp.study.from_logs import trials_of
 from fetch_pomdp.study.record import NAME, read_trials
+from fetch_pomdp.study.trial import trials_of
 from tests.study.small import small
 
 LOGGED = small(logs=True)

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from fetch_pomdp.cli.calibrate import calibrate
-from fetch_pomdp.cli.doors import export_scene
+from fetch_pomdp.cli.export import export_scene
 from fetch_pomdp.cli.gap import gap
 from fetch_pomdp.cli.interact import fetch
 from fetch_pomdp.cli.logs import app as logs

@@ -13,7 +13,7 @@ from numba.core import event
 
 from fetch_pomdp.cli.interrupts import ending_at_once
 
-PATIENCE = 1.5  # s of compiling before a user is told why nothing happens
+TOLD_AFTER = 1.5  # s of compiling before a user is told why nothing happens
 MESSAGE = "Compiling the planner: up to half a minute, after an installation only once if its cache can be written ..."
 
 
@@ -22,7 +22,7 @@ class Watch(event.Listener):
 
     def __init__(self) -> None:
         self._depth = 0  # a function is compiled while its caller is
-        self._left = PATIENCE  # s
+        self._left = TOLD_AFTER  # s
         self._begun = 0.0
         self._told = False
         self._meanwhile = ExitStack()

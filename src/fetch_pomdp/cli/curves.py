@@ -9,8 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from fetch_pomdp.cli.options import Seed
-from fetch_pomdp.cli.progress import trials_bar
-from fetch_pomdp.cli.terminal import Terminal
+from fetch_pomdp.cli.terminal import Terminal, trials_bar
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem

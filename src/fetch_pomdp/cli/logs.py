@@ -17,7 +17,7 @@ from fetch_pomdp.files.checking import Relived, checked, differences, relived, s
 from fetch_pomdp.files.events import action_to_json
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.recordings import Recording, read_recording
-from fetch_pomdp.study.from_logs import trials_of
+from fetch_pomdp.study.trial import trials_of
 
 app = typer.Typer(help="Check and replay recorded interactions.", no_args_is_help=True)
 

@@ -14,9 +14,8 @@ from rich.markup import escape
 from fetch_pomdp.adapters.robot.mujoco.description import RobotDescription
 from fetch_pomdp.adapters.robot.mujoco.film import Film, choose_graphics
 from fetch_pomdp.adapters.robot.mujoco.layout import layout
-from fetch_pomdp.adapters.robot.mujoco.pace import WallClock
 from fetch_pomdp.adapters.robot.mujoco.robot import SPEAK, MujocoRobot
-from fetch_pomdp.adapters.robot.mujoco.world import World
+from fetch_pomdp.adapters.robot.mujoco.world import RealTimePacer, World
 from fetch_pomdp.core.interaction import Timing
 from fetch_pomdp.core.ports import Failure, Outcome, Robot
 from fetch_pomdp.core.scene import Item, Scene
@@ -79,7 +78,7 @@ def opened_robot(name: str, stage: Stage) -> Iterator[Robot]:
     with contextlib.ExitStack() as open_files:
         with stage.console.status(f"building {escape(description.name)} and the table"):
             world = World(description, layout(stage.scene, description))
-            each_step: Callable[[], None] | None = WallClock(world) if stage.live else None
+            each_step: Callable[[], None] | None = RealTimePacer(world) if stage.live else None
             if stage.video is not None:
                 each_step = _both(each_step, open_files.enter_context(Film(world, stage.video)))
             robot = MujocoRobot(world, stage.say, each_step)

@@ -23,8 +23,7 @@ from fetch_pomdp.core.language.reading.weights import Weights, weights_of
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError
 from fetch_pomdp.study.requests.corpus import load_corpus
-from fetch_pomdp.study.requests.fit import Learner
-from fetch_pomdp.study.requests.weights_file import write_weights
+from fetch_pomdp.study.requests.fit import Learner, write_weights
 
 Says = Annotated[list[str], typer.Option("--says", metavar="TEXT", help="What is said; repeatable, in order.")]
 Language = Annotated[str, typer.Option(help=f"One of {', '.join(LANGUAGES)}.")]

@@ -14,8 +14,8 @@ from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.explanation import deed
 from fetch_pomdp.core.gesture import angles
 from fetch_pomdp.core.hearing import texts
-from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.language.reading.telling import told
+from fetch_pomdp.core.language.words import COURTESY
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.scene import Scene
 

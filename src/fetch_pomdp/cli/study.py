@@ -14,9 +14,8 @@ from rich.table import Table
 from fetch_pomdp.adapters.speech.spoken import SpokenWords
 from fetch_pomdp.cli.curves import curves, price_lists
 from fetch_pomdp.cli.options import Json, ModelFile, RobotName, Seed, as_json
-from fetch_pomdp.cli.progress import trials_bar
 from fetch_pomdp.cli.reproduce import compare, fit, stories
-from fetch_pomdp.cli.terminal import Terminal
+from fetch_pomdp.cli.terminal import Terminal, trials_bar
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem

@@ -24,12 +24,11 @@ from fetch_pomdp.core.explain import explain
 from fetch_pomdp.core.generative import asked_after
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language.answers import AROUND, After, AnswerReader, lexicon
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader, meanwhile
 from fetch_pomdp.core.language.reading.talk import AsHeard, Moment, said_by
 from fetch_pomdp.core.language.reading.telling import LOST
 from fetch_pomdp.core.language.unigram import Utterance
-from fetch_pomdp.core.language.words import COURTESY
+from fetch_pomdp.core.language.words import COURTESY, Meaning
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Meant, Observation, Parts, Said
 from fetch_pomdp.core.planners.base import BudgetPlanner, Decision, Planner

@@ -30,8 +30,8 @@ from fetch_pomdp.core.agent import Agent, Understood
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.hearing import texts, understood
 from fetch_pomdp.core.language.answers import After, AnswerReader, asks_for_another
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.names import is_name
+from fetch_pomdp.core.language.words import Meaning
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Failure, Outcome, Recognizer, Robot, SkeletonSource
 from fetch_pomdp.core.senses import Pace, Senses, StreamPace

@@ -16,10 +16,9 @@ from fetch_pomdp.core.alternatives import Alternative, together
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.language import unigram
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.reading.reader import Heard
 from fetch_pomdp.core.language.unigram import Utterance
-from fetch_pomdp.core.language.words import POSITIVE
+from fetch_pomdp.core.language.words import POSITIVE, Meaning
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.turns import NO, REPEAT, SILENT, UNSURE, YES, StepChances
 from fetch_pomdp.errors import ObservationError

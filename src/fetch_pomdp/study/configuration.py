@@ -16,8 +16,8 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import InputError, StudyError
 from fetch_pomdp.files.models import changed
-from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.design import Paradigm, Study
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.people.parameters import People
 
 Read = TypeVar("Read")

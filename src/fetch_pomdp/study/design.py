@@ -16,7 +16,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import InputError, StudyError
 from fetch_pomdp.files.header import Header
 from fetch_pomdp.files.models import changed
-from fetch_pomdp.study.clock import Durations
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.trial import Assignment
 

@@ -14,9 +14,8 @@ from fetch_pomdp.errors import StudyError
 from fetch_pomdp.extras import load
 from fetch_pomdp.files.recordings import read_recording
 from fetch_pomdp.files.writing import replaced
-from fetch_pomdp.study.from_logs import trials_of
 from fetch_pomdp.study.record import COLUMNS, LOGS, NAME, read_trials, trial_from_json
-from fetch_pomdp.study.trial import Trial
+from fetch_pomdp.study.trial import Trial, trials_of
 
 CHUNK = 50_000  # trials in memory at once while a table is written
 TYPES = {

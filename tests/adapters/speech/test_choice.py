@@ -11,7 +11,7 @@ import pytest
 
 from fetch_pomdp.adapters.speech.audio import open_raw
 from fetch_pomdp.adapters.speech.choice import recognizer, transcribers
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment
 from fetch_pomdp.core.ports import UtteranceRecognizer
 from fetch_pomdp.errors import AudioError, InputError
 from tests.adapters.speech.sounds import DATA, VOCABULARY, samples_of, with_noise
@@ -68,7 +68,7 @@ def test_two_are_heard_together(monkeypatch: pytest.MonkeyPatch) -> None:
     words = (
         transcribers("whisper:tiny.en+vosk:a+b")
         .transcriber(VOCABULARY)
-        .words(Utterance(0.0, np.zeros(32_000, np.int16)))
+        .words(SpeechSegment(0.0, np.zeros(32_000, np.int16)))
     )
     readings = {each.words: each.weight for each in words[0].readings}
     assert set(readings) == {("hand", "me", "marker"), ("hand", "marker"), ()}

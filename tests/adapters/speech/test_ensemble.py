@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from fetch_pomdp.adapters.speech.ensemble import Ensemble
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment
 from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.ports import Word
 
-SOUND = Utterance(0.0, np.zeros(16_000, np.int16))
+SOUND = SpeechSegment(0.0, np.zeros(16_000, np.int16))
 
 
 class Hears:
@@ -20,7 +20,7 @@ class Hears:
         shared = among if len(among) > 1 else ()
         self.heard = [Word(text, k, k + 1, posterior, shared) for k, text in enumerate(texts)]
 
-    def words(self, utterance: Utterance) -> list[Word]:
+    def words(self, utterance: SpeechSegment) -> list[Word]:
         return self.heard
 
 

@@ -20,7 +20,7 @@ from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import AudioError, MissingExtraError
-from fetch_pomdp.study.clock import Durations
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.encounter import encounter
 from fetch_pomdp.study.people.channel import Channel
 from fetch_pomdp.study.people.parameters import People

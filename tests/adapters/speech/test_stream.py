@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fetch_pomdp.adapters.speech.audio import RATE, open_raw
 from fetch_pomdp.adapters.speech.stream import Hypothesis, Stream, StreamingRecognizer, unmuted
-from fetch_pomdp.adapters.speech.utterances import Detector, Utterance, loud
+from fetch_pomdp.adapters.speech.utterances import Detector, SpeechSegment, loud
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
 from tests.adapters.speech.sounds import DATA, VOCABULARY, samples_of, with_noise
@@ -30,7 +30,7 @@ class Lengths:
     def __init__(self) -> None:
         self.asked = 0
 
-    def words(self, utterance: Utterance) -> Sequence[Word]:
+    def words(self, utterance: SpeechSegment) -> Sequence[Word]:
         self.asked += 1
         seconds = len(utterance.samples) / RATE
         return [Word(f"{seconds:.1f}", utterance.start, utterance.start + seconds, 0.5)]
@@ -128,7 +128,7 @@ def test_the_end_of_the_stream_ends_the_utterance() -> None:
 
 def test_a_transcriber_that_breaks_is_asked_again() -> None:
     class Broken(Lengths):
-        def words(self, utterance: Utterance) -> Sequence[Word]:
+        def words(self, utterance: SpeechSegment) -> Sequence[Word]:
             if not self.asked:
                 self.asked = 1
                 raise AudioError("broken")
@@ -169,7 +169,7 @@ class Waiting:
     def __init__(self) -> None:
         self.asked, self.go = threading.Event(), threading.Event()
 
-    def words(self, utterance: Utterance) -> Sequence[Word]:
+    def words(self, utterance: SpeechSegment) -> Sequence[Word]:
         self.asked.set()
         self.go.wait(30)
         return [Word("late", utterance.start, utterance.start, 1.0)]

@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fetch_pomdp.adapters.speech.transcriber import Transcriber
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment, Transcriber
 from fetch_pomdp.adapters.speech.vosk import VoskTranscriber
 from fetch_pomdp.adapters.speech.whisper import WhisperTranscriber, bounded
 from fetch_pomdp.core.ports import Word
@@ -118,23 +117,23 @@ TRANSCRIBERS: dict[str, Callable[[], Transcriber]] = {
 def test_the_contract(name: str) -> None:
     transcriber = TRANSCRIBERS[name]()
     samples = with_noise(samples_of(DATA / "marker.wav"))
-    words = list(transcriber.words(Utterance(100.0, samples)))
+    words = list(transcriber.words(SpeechSegment(100.0, samples)))
     assert {"hand", "marker"} <= {word.text for word in words}
     assert all(word.text == word.text.lower() and word.text.isalpha() for word in words)
     times = [time for word in words for time in (word.start, word.end)]
     assert times == sorted(times)
     assert 100.4 < times[0] < times[-1] <= 100 + len(samples) / 16_000
     assert all(0 < word.posterior <= 1 for word in words)
-    later = list(transcriber.words(Utterance(200.0, samples)))
+    later = list(transcriber.words(SpeechSegment(200.0, samples)))
     assert [(word.text, word.posterior) for word in later] == [(word.text, word.posterior) for word in words]
     assert [word.start for word in later] == pytest.approx([word.start + 100 for word in words])
 
 
 def test_what_was_said_before_changes_nothing() -> None:
     transcriber, no = sphinx(), with_noise(samples_of(DATA / "no.wav"))
-    first = transcriber.words(Utterance(0.0, no))
-    transcriber.words(Utterance(0.0, with_noise(samples_of(DATA / "marker.wav"), 5.0)))
-    assert transcriber.words(Utterance(0.0, no)) == first
+    first = transcriber.words(SpeechSegment(0.0, no))
+    transcriber.words(SpeechSegment(0.0, with_noise(samples_of(DATA / "marker.wav"), 5.0)))
+    assert transcriber.words(SpeechSegment(0.0, no)) == first
 
 
 def test_vosk_listens_for_words_of_the_scene_and_answers() -> None:
@@ -144,7 +143,7 @@ def test_vosk_listens_for_words_of_the_scene_and_answers() -> None:
         made.append(KaldiRecognizer(grammar))
         return made[-1]
 
-    VoskTranscriber(recognizer, VOCABULARY).words(Utterance(0.0, np.zeros(1600, np.int16)))
+    VoskTranscriber(recognizer, VOCABULARY).words(SpeechSegment(0.0, np.zeros(1600, np.int16)))
     assert {*VOCABULARY, "yes", "no", "[unk]"} <= set(made[0].grammar)
 
 
@@ -219,7 +218,7 @@ def test_whispers_words_are_bounded_in_the_librarys_own_types() -> None:
         words = [own.Word(0.1 * k, 0.1 * k + 0.1, f" {word}", 0.5) for k, word in enumerate(text.split())]
         return own.Segment(0, 0, 0.0, 2.0, text, [], likely, ratio, silent, words, 0.6)
 
-    utterance = Utterance(0.0, np.zeros(32_000, np.int16))
+    utterance = SpeechSegment(0.0, np.zeros(32_000, np.int16))
 
     def heard(*segments: object) -> list[str]:
         return [word.text for word in WhisperTranscriber(Endless(*segments), VOCABULARY).words(utterance)]

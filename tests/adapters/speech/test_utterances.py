@@ -8,14 +8,14 @@ import pytest
 from numpy.typing import NDArray
 
 from fetch_pomdp.adapters.speech.audio import RATE, open_raw
-from fetch_pomdp.adapters.speech.utterances import Utterance, Utterances
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment, Utterances
 
 
 def noise(seconds: float, loudness: float, seed: int = 0) -> NDArray[np.float64]:
     return np.random.default_rng(seed).standard_normal(round(seconds * RATE)) * loudness
 
 
-def utterances(samples: NDArray[np.float64]) -> list[Utterance]:
+def utterances(samples: NDArray[np.float64]) -> list[SpeechSegment]:
     heard = Utterances(open_raw(io.BytesIO(samples.astype("<i2").tobytes())))
     found = []
     while not heard.ended:

@@ -8,14 +8,14 @@ import pytest
 
 from fetch_pomdp.adapters.speech import worker
 from fetch_pomdp.adapters.speech.sphinx import SphinxTranscriber
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment
 from fetch_pomdp.adapters.speech.worker import SphinxProcess, serve
 from fetch_pomdp.errors import AudioError
 from tests.adapters.speech.sounds import DATA, VOCABULARY, samples_of, with_noise
 
 pytest.importorskip("pocketsphinx")
 
-MARKER = Utterance(3.0, with_noise(samples_of(DATA / "marker.wav")))
+MARKER = SpeechSegment(3.0, with_noise(samples_of(DATA / "marker.wav")))
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +40,7 @@ def test_two_vocabularies_share_a_process_and_no_words(process: SphinxProcess) -
 def test_a_process_that_died_is_missed_once(process: SphinxProcess, monkeypatch: pytest.MonkeyPatch) -> None:
     transcriber = process.transcriber(VOCABULARY)
     with monkeypatch.context() as patience:
-        patience.setattr(worker, "PATIENCE", 0.0)  # none: it is killed while it works
+        patience.setattr(worker, "ANSWER_TIMEOUT", 0.0)  # none: it is killed while it works
         with pytest.raises(AudioError, match="found no answer"):
             transcriber.words(MARKER)
     assert [word.text for word in transcriber.words(MARKER)] == ["hand", "me", "the", "marker"]

@@ -11,7 +11,7 @@ import pytest
 from fetch_pomdp.adapters.web import ears as module
 from fetch_pomdp.adapters.web.ears import AGAIN, ECHO, MOST_EARLY, Ears
 from fetch_pomdp.adapters.web.page_messages import LARGEST_MESSAGE
-from fetch_pomdp.core.live import Inbox, SensorStatus, State
+from fetch_pomdp.core.live import Inbox, SensorState, SensorStatus
 from fetch_pomdp.errors import AudioError, MessageError
 
 SOUND = bytes(3200)  # a tenth of a second
@@ -62,7 +62,7 @@ class Opening:
         self.time = at
         self.ears.hear(SOUND)
 
-    def state(self) -> State:
+    def state(self) -> SensorState:
         return self.told.get(timeout=120).state
 
 
@@ -108,13 +108,13 @@ def test_ears_that_do_not_open_are_told_of_and_tried_again_with_later_sound(open
     opening.hear(1.0)
     opening.time = 2.0
     opening.ends.put(error)
-    assert opening.state() is State.LOST
+    assert opening.state() is SensorState.LOST
     opening.hear(2.0 + AGAIN - 0.1)
     assert opening.attempts.qsize() == 1, "not at once again"
     opening.hear(2.0 + AGAIN)
     opening.ends.put(None)
     assert made.get(timeout=120).calls[0] == ("feed", 3200, 2.0 + AGAIN - 0.1)
-    assert opening.state() is State.OK
+    assert opening.state() is SensorState.OK
     assert opening.attempts.qsize() == 2
 
 

@@ -9,9 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fetch_pomdp.core.language.answers import PAPER, After, Lexicon, Reading, lexicon
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.phrases import Answers, spellings
-from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE, STOPS, tokenize
+from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE, STOPS, Meaning, tokenize
 from fetch_pomdp.errors import SceneError
 
 OURS = lexicon(Answers(), ("bowl", "marker", "red", "green", "left"))

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from fetch_pomdp.core.action import Point, Wait
 from fetch_pomdp.core.language import unigram
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.unigram import Utterance
+from fetch_pomdp.core.language.words import Meaning
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.turns import constant_chances

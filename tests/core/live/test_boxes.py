@@ -7,7 +7,7 @@ import threading
 import numpy as np
 import pytest
 
-from fetch_pomdp.core.live import BeliefChanged, Ended, Inbox, Outbox
+from fetch_pomdp.core.live import BeliefChanged, Ended, Inbox, UpdateQueue
 from fetch_pomdp.core.ports import Frame, Word
 from fetch_pomdp.errors import ObservationError
 
@@ -95,7 +95,7 @@ def test_many_threads_lose_nothing() -> None:
 
 
 def test_a_slow_listener_is_told_the_last_belief_and_every_event() -> None:
-    outbox = Outbox()
+    outbox = UpdateQueue()
     for time in (0.0, 1.0, 2.0):
         outbox(belief(time))
     outbox(Ended(None))
@@ -107,6 +107,6 @@ def test_a_slow_listener_is_told_the_last_belief_and_every_event() -> None:
 
 
 def test_a_listener_waits_for_what_comes() -> None:
-    outbox = Outbox()
+    outbox = UpdateQueue()
     threading.Timer(0.05, lambda: outbox(Ended("marker-1"))).start()
     assert outbox.take(timeout=30.0) == [Ended("marker-1")]

@@ -10,8 +10,8 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.study.calibrate.modelled import modelled
 from fetch_pomdp.study.calibrate.steps import Interaction
+from fetch_pomdp.study.encounter import modelled
 
 SCENES = (Scene.load("ambiguous"), Scene.load("unambiguous"))
 TRUTH = {"sigma": 0.1, "p_g": 0.4, "p_l": 0.8, "p_answer_again": 0.4, "alpha": 0.1, "p_truth": 0.9}

@@ -8,7 +8,7 @@ from typing import Any
 from numpy.random import Generator, default_rng
 
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.study.clock import Durations
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.people.person import Person
 from fetch_pomdp.study.people.traits import Traits

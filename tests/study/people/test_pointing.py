@@ -11,7 +11,7 @@ from numpy.random import default_rng
 
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.ports import Frame
-from fetch_pomdp.study.people.pointing import REST, Episode, directions, drift, frames, item_at
+from fetch_pomdp.study.people.pointing import REST, PointingGesture, directions, drift, frames, item_at
 
 from .plain import AMBIGUOUS, within
 
@@ -19,9 +19,9 @@ HEAD, TARGET = (0.0, 0.0, 1.6), (0.075, 3.2, 0.75)
 AIM = np.subtract(TARGET, HEAD) / math.dist(TARGET, HEAD)
 
 
-def episode(**changes: Any) -> Episode:
+def episode(**changes: Any) -> PointingGesture:
     usual = {"start": 1.0, "rise": 0.3, "held": 1.0, "bias": (0.0, 0.0), "jitter": 0.0, "jitter_time": 0.3}
-    return Episode(**{**usual, **changes})
+    return PointingGesture(**{**usual, **changes})
 
 
 def drawn(seed: int = 0, **changes: Any) -> list[Frame]:

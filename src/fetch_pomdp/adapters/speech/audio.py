@@ -20,7 +20,7 @@ from fetch_pomdp.extras import load
 
 RATE = 16_000  # Hz, of every Sound
 BLOCK = 0.02  # s read from a pipe or a microphone at a time
-PATIENCE = 600.0  # s of microphone sound kept for a listener that is busy
+BUFFERED = 600.0  # s of microphone sound kept for a listener that is busy
 
 Samples = NDArray[np.int16]
 Mono = NDArray[np.float32]  # -1 to 1
@@ -88,7 +88,7 @@ def open_microphone(device: str | int | None = None) -> Sound:
         sounddevice = load("sounddevice", "speech")
     except OSError:  # what sounddevice raises without PortAudio, which pip does not bring on Linux
         raise MissingExtraError("PortAudio is not installed; install it with: apt install libportaudio2") from None
-    heard: queue.Queue[bytes] = queue.Queue(int(PATIENCE / BLOCK))
+    heard: queue.Queue[bytes] = queue.Queue(int(BUFFERED / BLOCK))
     overrun: list[bool] = []
 
     def keep(block: Buffer, *_: object) -> None:
@@ -146,6 +146,6 @@ def _microphone_blocks(microphone: Device, heard: queue.Queue[bytes], overrun: l
                 found = "found no sound for 5 s, expected a microphone that is connected"
                 raise AudioError(found, source=name) from None
             yield np.frombuffer(block, "<i2").astype(np.float32) / np.float32(32768)
-        raise AudioError(f"found {PATIENCE:.0f} s of sound nobody read, expected to be read", source=name)
+        raise AudioError(f"found {BUFFERED:.0f} s of sound nobody read, expected to be read", source=name)
     finally:
         microphone.close()

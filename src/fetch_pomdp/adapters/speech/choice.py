@@ -13,7 +13,7 @@ from fetch_pomdp.adapters.speech.audio import Sound
 from fetch_pomdp.adapters.speech.ensemble import Ensemble
 from fetch_pomdp.adapters.speech.recorded import SoundRecognizer
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
-from fetch_pomdp.adapters.speech.transcriber import Transcriber
+from fetch_pomdp.adapters.speech.utterances import Transcriber
 from fetch_pomdp.adapters.speech.worker import SphinxProcess
 from fetch_pomdp.core.ports import Recognizer
 from fetch_pomdp.errors import InputError

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from fetch_pomdp.adapters.speech.transcriber import Transcriber
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment, Transcriber
 from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.ports import Word
@@ -22,7 +21,7 @@ class Ensemble:
     def __init__(self, transcribers: Sequence[Transcriber]) -> None:
         self._transcribers = tuple(transcribers)
 
-    def words(self, utterance: Utterance) -> list[Word]:
+    def words(self, utterance: SpeechSegment) -> list[Word]:
         """Return the words of an utterance; see Transcriber."""
         heard = [tuple(transcriber.words(utterance)) for transcriber in self._transcribers]
         weights: dict[tuple[str, ...], float] = {}

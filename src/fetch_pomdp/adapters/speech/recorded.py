@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from fetch_pomdp.adapters.speech.audio import Sound
 from fetch_pomdp.adapters.speech.foreground import Foreground
 from fetch_pomdp.adapters.speech.silero import Silero, model
-from fetch_pomdp.adapters.speech.utterances import Utterance, Utterances
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment, Utterances
 from fetch_pomdp.core.ports import Word
 
 
@@ -20,7 +20,7 @@ class SoundRecognizer:
     Raises MissingExtraError without onnxruntime.
     """
 
-    def __init__(self, sound: Sound, transcribe: Callable[[Utterance], Sequence[Word]]) -> None:
+    def __init__(self, sound: Sound, transcribe: Callable[[SpeechSegment], Sequence[Word]]) -> None:
         self._utterances = Utterances(sound, Foreground(Silero(model())))
         self._transcribe = transcribe
         self._heard: deque[Word] = deque()

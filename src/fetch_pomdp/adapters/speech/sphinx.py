@@ -18,7 +18,7 @@ from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_mode
 from fetch_pomdp.adapters.speech.denoise import denoise
 from fetch_pomdp.adapters.speech.pronunciation import pronounce
 from fetch_pomdp.adapters.speech.recorded import SoundRecognizer
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment
 from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.extras import load
@@ -48,12 +48,12 @@ class SphinxTranscriber:
         self._decoder = _decoder(vocabulary)
         self._foreign = frozenset(COMMON).difference(vocabulary)
 
-    def words(self, utterance: Utterance) -> list[Word]:
+    def words(self, utterance: SpeechSegment) -> list[Word]:
         """Return the words with their times on the clock of the utterance, whatever was heard before."""
         self._decoder.reinit_feat()
         return self.next_words(utterance)
 
-    def next_words(self, utterance: Utterance) -> list[Word]:
+    def next_words(self, utterance: SpeechSegment) -> list[Word]:
         """Return the words of the next utterance of one stream: what the decoder knows of its noise by now helps."""
         decoder = self._decoder
         decoder.start_utt()

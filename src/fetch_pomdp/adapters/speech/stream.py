@@ -16,8 +16,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from fetch_pomdp.adapters.speech.audio import RATE, Samples
-from fetch_pomdp.adapters.speech.transcriber import Transcriber
-from fetch_pomdp.adapters.speech.utterances import FRAME, PADDING, Cutter, Detector, Utterance
+from fetch_pomdp.adapters.speech.utterances import FRAME, PADDING, Cutter, Detector, SpeechSegment, Transcriber
 from fetch_pomdp.core.language.names import as_spoken
 from fetch_pomdp.core.language.words import STOPS
 from fetch_pomdp.core.ports import Word
@@ -102,13 +101,13 @@ class Stream:
         self._hypothesis = hypothesis
         self._on_partial(hypothesis)
 
-    def _finish(self, utterance: Utterance) -> None:
+    def _finish(self, utterance: SpeechSegment) -> None:
         for word in self._words(utterance):
             self._on_word(word)
         self._guess(None)
 
-    def _words(self, utterance: Utterance) -> tuple[Word, ...]:
-        moved = Utterance(utterance.start + self._offset, utterance.samples)
+    def _words(self, utterance: SpeechSegment) -> tuple[Word, ...]:
+        moved = SpeechSegment(utterance.start + self._offset, utterance.samples)
         try:
             return tuple(self._transcriber.words(moved))
         except AudioError as error:

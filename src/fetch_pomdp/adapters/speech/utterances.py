@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from fetch_pomdp.adapters.speech.audio import RATE, Samples, Sound
+from fetch_pomdp.core.ports import Word
 
 FRAME = 160  # samples: 10 ms, as the decoder's frames
 BAND = slice(2, 40)  # bins of 100 Hz: where the energy of speech is, without hum
@@ -28,11 +30,22 @@ LONGEST = 1000  # frames; a longer utterance is cut at the quietest of its last 
 
 
 @dataclass(frozen=True, slots=True)
-class Utterance:
+class SpeechSegment:
     """A stretch of sound with speech in it."""
 
     start: float  # s on the clock of the stream
     samples: Samples
+
+
+class Transcriber(Protocol):
+    """What every recogniser of whole utterances has in common: finds the words of one, or of as much as there is."""
+
+    def words(self, utterance: SpeechSegment) -> Sequence[Word]:
+        """Return the words in order, lower case, with their times (s) on the clock of the utterance, and posteriors.
+
+        Raises AudioError if it breaks; it may be asked again.
+        """
+        ...
 
 
 class Detector(Protocol):
@@ -70,7 +83,7 @@ class Cutter:
         """Up to when (s) all that was said has been given: what was pushed, but for an utterance that goes on."""
         return (self._count - (len(self._kept) if self.speaking else 0)) * FRAME / RATE
 
-    def take(self, frame: Samples) -> Utterance | None:
+    def take(self, frame: Samples) -> SpeechSegment | None:
         """Take the next 10 ms; return an utterance if one ended with them."""
         self._kept.append(frame)
         self._count += 1
@@ -86,11 +99,11 @@ class Cutter:
             return self._give(len(self._kept) - MEMORY + int(np.argmin(self._levels)) - SMOOTH // 2)
         return None
 
-    def so_far(self) -> Utterance:
+    def so_far(self) -> SpeechSegment:
         """Return the utterance that goes on, up to now."""
-        return Utterance(self.begun, np.concatenate(self._kept))
+        return SpeechSegment(self.begun, np.concatenate(self._kept))
 
-    def end(self) -> Utterance | None:
+    def end(self) -> SpeechSegment | None:
         """End the utterance that goes on and return it; forget what was said before if there is none."""
         given = self._give(len(self._kept)) if self.speaking else None
         self.speaking = False
@@ -108,10 +121,10 @@ class Cutter:
         self._levels.append(max(QUIETEST, 10 * math.log10(sum(self._powers) / len(self._powers) + 1)))
         return self._levels[-1] - min(self._levels)
 
-    def _give(self, count: int) -> Utterance:
+    def _give(self, count: int) -> SpeechSegment:
         start = self.begun
         given, self._kept = self._kept[:count], self._kept[count:]
-        return Utterance(start, np.concatenate(given))
+        return SpeechSegment(start, np.concatenate(given))
 
 
 def power(frame: Samples) -> float:
@@ -131,7 +144,7 @@ class Utterances:
         """Up to when (s) all that was said has been given: what was read, but for an utterance that goes on."""
         return self._cutter.settled
 
-    def step(self) -> Utterance | None:
+    def step(self) -> SpeechSegment | None:
         """Read 10 ms; return an utterance if one ended with them. Raises AudioError for a stream that breaks."""
         frame = self._sound.read(FRAME)
         if len(frame) < FRAME:

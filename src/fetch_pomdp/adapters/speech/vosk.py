@@ -9,7 +9,7 @@ from typing import Any, Self
 
 from fetch_pomdp.adapters.speech.audio import RATE
 from fetch_pomdp.adapters.speech.bigram import every_word
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
 from fetch_pomdp.extras import load
@@ -35,7 +35,7 @@ class VoskTranscriber:
         loaded = load_model(model)
         return cls(_recognizers(loaded), vocabulary)
 
-    def words(self, utterance: Utterance) -> list[Word]:
+    def words(self, utterance: SpeechSegment) -> list[Word]:
         """Return the words of an utterance; see Transcriber."""
         recognizer = self._recognizer(self._known)
         recognizer.SetWords(True)

@@ -16,7 +16,7 @@ from typing import Any, Self
 import numpy as np
 
 from fetch_pomdp.adapters.speech.audio import RATE
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
@@ -48,7 +48,7 @@ class WhisperTranscriber:
         """Load a model: see `load_model`."""
         return cls(load_model(model), vocabulary)
 
-    def words(self, utterance: Utterance) -> list[Word]:
+    def words(self, utterance: SpeechSegment) -> list[Word]:
         """Return the words of an utterance; see Transcriber."""
         most = math.ceil(len(utterance.samples) / RATE * FASTEST) + SPARE
         segments, _ = self._model.transcribe(

@@ -22,14 +22,13 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from fetch_pomdp.adapters.speech.sphinx import SphinxTranscriber
-from fetch_pomdp.adapters.speech.transcriber import Transcriber
-from fetch_pomdp.adapters.speech.utterances import Utterance
+from fetch_pomdp.adapters.speech.utterances import SpeechSegment, Transcriber
 from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
 from fetch_pomdp.extras import load
 
-PATIENCE = 20.0  # s for an answer, loading included; a process that takes longer is killed
+ANSWER_TIMEOUT = 20.0  # s for an answer, loading included; a process that takes longer is killed
 NAME = "speech recogniser"
 
 
@@ -47,7 +46,7 @@ class SphinxProcess:
     def transcriber(self, vocabulary: Sequence[str]) -> Transcriber:
         """Return a Transcriber of a scene's words, and load what it needs."""
         transcriber = _Remote(self, vocabulary)
-        transcriber.words(Utterance(0.0, np.zeros(1600, np.int16)))
+        transcriber.words(SpeechSegment(0.0, np.zeros(1600, np.int16)))
         return transcriber
 
     def ask(self, request: dict[str, Any], samples: bytes) -> dict[str, Any]:
@@ -73,7 +72,7 @@ class _Remote:
     def __init__(self, process: SphinxProcess, vocabulary: Sequence[str]) -> None:
         self._process, self._vocabulary = process, list(vocabulary)
 
-    def words(self, utterance: Utterance) -> list[Word]:
+    def words(self, utterance: SpeechSegment) -> list[Word]:
         request = {"vocabulary": self._vocabulary, "start": utterance.start, "samples": len(utterance.samples)}
         answer = self._process.ask(request, utterance.samples.astype("<i2").tobytes())
         readings = tuple(Alternative(tuple(words), weight) for words, weight in answer["readings"])
@@ -84,7 +83,7 @@ def _exchange(process: subprocess.Popen[bytes], request: bytes) -> dict[str, Any
     to, back = process.stdin, process.stdout
     if to is None or back is None:
         raise AudioError("found no pipe, expected one to the process", source=NAME)
-    timer = threading.Timer(PATIENCE, process.kill)
+    timer = threading.Timer(ANSWER_TIMEOUT, process.kill)
     timer.start()
     try:
         to.write(request)
@@ -109,7 +108,7 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     while line := requests.readline():
         request = json.loads(line)
         samples = np.frombuffer(requests.read(2 * request["samples"]), "<i2").astype(np.int16)
-        words = _transcriber(tuple(request["vocabulary"])).words(Utterance(request["start"], samples))
+        words = _transcriber(tuple(request["vocabulary"])).words(SpeechSegment(request["start"], samples))
         found = [[word.text, word.start, word.end, word.posterior] for word in words]
         readings = [[each.words, each.weight] for each in words[0].readings] if words else []
         answers.write(json.dumps({"words": found, "readings": readings}).encode() + b"\n")

@@ -15,8 +15,8 @@ from fetch_pomdp.adapters.speech.silero import Silero, model
 from fetch_pomdp.adapters.speech.stream import StreamingRecognizer
 from fetch_pomdp.adapters.speech.utterances import Detector
 from fetch_pomdp.adapters.web.page_messages import LARGEST_MESSAGE
-from fetch_pomdp.core.live import Inbox, SensorStatus, State
-from fetch_pomdp.core.live.vitals import TEXTS
+from fetch_pomdp.core.live import Inbox, SensorState, SensorStatus
+from fetch_pomdp.core.live.sensor_monitor import TEXTS
 from fetch_pomdp.errors import AudioError, MessageError, MissingExtraError
 
 logger = logging.getLogger(__name__)
@@ -202,7 +202,7 @@ class Ears:
             self._early.replay(self._recognizer)
             back = self._lost
         if back:
-            self._report(State.OK)
+            self._report(SensorState.OK)
 
     def _failed(self) -> None:
         with self._lock:
@@ -210,7 +210,7 @@ class Ears:
             self._early.forget_sound()
             first, self._lost = not self._lost, True
         if first and not self._closed:
-            self._report(State.LOST)
+            self._report(SensorState.LOST)
 
-    def _report(self, state: State) -> None:
+    def _report(self, state: SensorState) -> None:
         self._tell(SensorStatus(SENSOR, state, TEXTS[state].format(name=SENSOR)))

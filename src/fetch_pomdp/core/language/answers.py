@@ -24,10 +24,9 @@ from enum import Enum
 from typing import Protocol
 
 from fetch_pomdp.core.language import english, german
-from fetch_pomdp.core.language.meaning import MEANINGS, STAND_INS, Meaning
 from fetch_pomdp.core.language.names import with_names
 from fetch_pomdp.core.language.phrases import Answers, Entry, Phrases, When, plain, spellings
-from fetch_pomdp.core.language.words import NEGATIVE, RESPONSES, STOPS, tokenize
+from fetch_pomdp.core.language.words import MEANINGS, NEGATIVE, RESPONSES, STAND_INS, STOPS, Meaning, tokenize
 
 HESITATIONS = english.HESITATIONS | german.HESITATIONS
 AROUND = HESITATIONS | english.AROUND | german.AROUND

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.phrases import Entry, When
-from fetch_pomdp.core.language.words import tokenize
+from fetch_pomdp.core.language.words import Meaning, tokenize
 
 GERMAN: Mapping[Entry, str] = {
     Entry(Meaning.YES): """

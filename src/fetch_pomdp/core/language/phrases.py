@@ -14,8 +14,7 @@ from itertools import product
 from typing import Any, Self
 
 from fetch_pomdp import checks
-from fetch_pomdp.core.language.meaning import Meaning
-from fetch_pomdp.core.language.words import tokenize
+from fetch_pomdp.core.language.words import Meaning, tokenize
 from fetch_pomdp.errors import SceneError
 
 Spelling = tuple[str, ...]

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp.core.compiled import Vector, inlined
-from fetch_pomdp.core.language.meaning import MEANINGS, Meaning
-from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE, RESPONSES
+from fetch_pomdp.core.language.words import MEANINGS, NEGATIVE, POSITIVE, RESPONSES, Meaning
 from fetch_pomdp.core.problem import Problem, Tables
 from fetch_pomdp.core.turns import StepChances
 

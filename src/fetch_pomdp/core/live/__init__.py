@@ -3,9 +3,18 @@
 from fetch_pomdp.core.live.body import LiveRobot
 from fetch_pomdp.core.live.clock import Clock, RealClock
 from fetch_pomdp.core.live.inbox import Inbox
-from fetch_pomdp.core.live.outbox import Outbox
 from fetch_pomdp.core.live.session import LIVE, LiveSession
-from fetch_pomdp.core.live.updates import BeliefChanged, Decided, Did, Ended, Heard, SensorStatus, State, Update
+from fetch_pomdp.core.live.updates import (
+    BeliefChanged,
+    Decided,
+    Did,
+    Ended,
+    Heard,
+    SensorState,
+    SensorStatus,
+    Update,
+    UpdateQueue,
+)
 
 __all__ = [
     "LIVE",
@@ -18,9 +27,9 @@ __all__ = [
     "Inbox",
     "LiveRobot",
     "LiveSession",
-    "Outbox",
     "RealClock",
+    "SensorState",
     "SensorStatus",
-    "State",
     "Update",
+    "UpdateQueue",
 ]

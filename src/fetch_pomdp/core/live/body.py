@@ -9,8 +9,8 @@ from typing import Protocol
 from fetch_pomdp.core.language.answers import AnswerReader
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.live.inbox import Inbox
-from fetch_pomdp.core.live.updates import State
-from fetch_pomdp.core.live.vitals import Vitals
+from fetch_pomdp.core.live.sensor_monitor import SensorMonitor
+from fetch_pomdp.core.live.updates import SensorState
 from fetch_pomdp.core.ports import Failure, Outcome, Robot
 from fetch_pomdp.core.scene import Item
 
@@ -28,8 +28,8 @@ class Body:
     interaction.
     """
 
-    def __init__(self, robot: LiveRobot, inbox: Inbox, vitals: Vitals, answers: AnswerReader) -> None:
-        self._robot, self._inbox, self._vitals, self._answers = robot, inbox, vitals, answers
+    def __init__(self, robot: LiveRobot, inbox: Inbox, monitor: SensorMonitor, answers: AnswerReader) -> None:
+        self._robot, self._inbox, self._monitor, self._answers = robot, inbox, monitor, answers
         self._picking = False
 
     def point(self, item: Item) -> Outcome | Failure:
@@ -72,7 +72,7 @@ class Body:
         except Exception:
             logger.exception("the robot broke")
             outcome = Outcome.FAILED
-            self._vitals.report("robot", State.LOST)
+            self._monitor.report("robot", SensorState.LOST)
         else:
-            self._vitals.report("robot", State.OK)
+            self._monitor.report("robot", SensorState.OK)
         return outcome

@@ -8,12 +8,12 @@ from threading import Event
 from fetch_pomdp.core.live.clock import Clock
 from fetch_pomdp.core.live.display import Display
 from fetch_pomdp.core.live.inbox import Inbox
-from fetch_pomdp.core.live.updates import Decided, State
-from fetch_pomdp.core.live.vitals import Vitals
+from fetch_pomdp.core.live.sensor_monitor import SensorMonitor
+from fetch_pomdp.core.live.updates import Decided, SensorState
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Frame, Word
 
-PATIENCE = 2.0  # s an utterance may go on without a word from the recogniser
+LONGEST_PAUSE = 2.0  # s an utterance may go on without a word from the recogniser
 LONGEST = 10.0  # s an utterance may prolong a step
 SPEECH = "speech"  # the name of the sensor that gives partial hypotheses
 
@@ -29,8 +29,8 @@ class LiveSenses:
     end; so what is heard and the question it answers stay together.
     """
 
-    def __init__(self, inbox: Inbox, clock: Clock, display: Display, vitals: Vitals) -> None:
-        self._inbox, self._clock, self._display, self._vitals = inbox, clock, display, vitals
+    def __init__(self, inbox: Inbox, clock: Clock, display: Display, monitor: SensorMonitor) -> None:
+        self._inbox, self._clock, self._display, self._monitor = inbox, clock, display, monitor
         self._went_on = 0.0  # s, when words last came
         self.closed = Event()
 
@@ -71,16 +71,16 @@ class LiveSenses:
             if self._inbox.pending().partial is None:
                 ends = until
             else:
-                ends = min(max(until, self._went_on + PATIENCE), until + LONGEST)
+                ends = min(max(until, self._went_on + LONGEST_PAUSE), until + LONGEST)
                 if now >= ends:
                     self._inbox.push_partial(None)
                     if SPEECH in self._inbox.signs_of_life():  # otherwise it was typed
-                        self._vitals.report(SPEECH, State.SLOW)
+                        self._monitor.report(SPEECH, SensorState.SLOW)
             if now >= ends:
                 return
-            self._clock.wait_until(min(ends, self._vitals.next_examination(now)), self._inbox.wake)
+            self._clock.wait_until(min(ends, self._monitor.next_examination(now)), self._inbox.wake)
 
     def _examine(self) -> None:
         if self.closed.is_set():
             raise Closed
-        self._vitals.examine(self._clock.now())
+        self._monitor.examine(self._clock.now())

@@ -19,8 +19,8 @@ from fetch_pomdp.core.live.clock import Clock, RealClock
 from fetch_pomdp.core.live.display import Display
 from fetch_pomdp.core.live.inbox import Inbox, News
 from fetch_pomdp.core.live.senses import SPEECH, Closed, LiveSenses
-from fetch_pomdp.core.live.updates import Ended, State, Update
-from fetch_pomdp.core.live.vitals import Vitals
+from fetch_pomdp.core.live.sensor_monitor import SensorMonitor
+from fetch_pomdp.core.live.updates import Ended, SensorState, Update
 from fetch_pomdp.errors import BeliefError, ObservationError
 
 logger = logging.getLogger(__name__)
@@ -34,8 +34,8 @@ class LiveSession:
     """One live interaction. `run` goes on until an item is handed over or `close` is called, in a thread of the caller.
 
     listener: is told each Update, one at a time and in order, by whichever thread makes it. While it is busy the robot
-    waits, and sensors do not (see Outbox for one that is slow). agent: of this interaction alone. inbox: of one session
-    at a time; what a session has not taken is there for the next one.
+    waits, and sensors do not (see UpdateQueue for one that is slow). agent: of this interaction alone. inbox: of one
+    session at a time; what a session has not taken is there for the next one.
     """
 
     def __init__(
@@ -51,9 +51,9 @@ class LiveSession:
         self.agent, self.clock = agent, clock or RealClock()
         self._inbox, self._timing = inbox, timing
         self._display = Display(agent, inbox, listener)
-        self._vitals = Vitals(inbox, self._display.tell)
-        self._senses = LiveSenses(inbox, self.clock, self._display, self._vitals)
-        self._body = Body(robot, inbox, self._vitals, agent.answers)
+        self._monitor = SensorMonitor(inbox, self._display.tell)
+        self._senses = LiveSenses(inbox, self.clock, self._display, self._monitor)
+        self._body = Body(robot, inbox, self._monitor, agent.answers)
         self._looked = 0.0
         self._leave_inbox = inbox.subscribe(self._came)
 
@@ -64,7 +64,7 @@ class LiveSession:
             for event in self._events():
                 self._display.settle(event, self.clock.now())
                 if isinstance(event, Observed):
-                    self._vitals.report(MODEL, State.OK)
+                    self._monitor.report(MODEL, SensorState.OK)
         except Closed:
             logger.info("closed")
         finally:
@@ -88,7 +88,7 @@ class LiveSession:
                 )
             except (BeliefError, ObservationError) as error:
                 logger.warning("left out: %s", error)
-                self._vitals.report(MODEL, State.LOST)
+                self._monitor.report(MODEL, SensorState.LOST)
                 self._display.begin(self.clock.now())
             else:
                 return
@@ -100,7 +100,7 @@ class LiveSession:
         if news is News.WORDS:
             self._senses.went_on()
             if self._inbox.pending().partial is not None:
-                self._vitals.report(SPEECH, State.OK)
+                self._monitor.report(SPEECH, SensorState.OK)
         elif now < self._looked + REFRESH:
             return
         self._looked = now

@@ -1,9 +1,11 @@
-"""What a live interaction tells its listener, as it happens."""
+"""What a live interaction tells its listener, as it happens, and a listener that only keeps it."""
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass
 from enum import Enum
+from threading import Condition
 from typing import TypeAlias
 
 from fetch_pomdp.core.compiled import Vector
@@ -11,7 +13,7 @@ from fetch_pomdp.core.events import Acted, Observed
 from fetch_pomdp.core.planners.base import Decision
 
 
-class State(Enum):
+class SensorState(Enum):
     """How a sensor does."""
 
     OK = "ok"
@@ -61,7 +63,7 @@ class SensorStatus:
     """A sensor, the robot or the model does otherwise than before; text: in English, for a screen."""
 
     name: str
-    state: State
+    state: SensorState
     text: str
 
 
@@ -73,3 +75,31 @@ class Ended:
 
 
 Update: TypeAlias = BeliefChanged | Decided | Did | Heard | SensorStatus | Ended
+
+
+class UpdateQueue:
+    """A listener that only keeps, for another thread to take. Safe to use from any thread.
+
+    A belief replaces one that nobody has taken, if nothing came between: a slow listener is told fewer of them, and
+    every event. So it holds at most twice as many updates as there were events, two or three a second.
+    """
+
+    def __init__(self) -> None:
+        self._updates: deque[Update] = deque()
+        self._came = Condition()
+
+    def __call__(self, update: Update) -> None:
+        """Keep an update."""
+        with self._came:
+            if isinstance(update, BeliefChanged) and self._updates and isinstance(self._updates[-1], BeliefChanged):
+                self._updates.pop()
+            self._updates.append(update)
+            self._came.notify_all()
+
+    def take(self, timeout: float | None = None) -> list[Update]:
+        """Wait for an update, at most `timeout` s, and take all there are; none after that time."""
+        with self._came:
+            self._came.wait_for(lambda: bool(self._updates), timeout)
+            taken = list(self._updates)
+            self._updates.clear()
+            return taken

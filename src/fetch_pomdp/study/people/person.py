@@ -14,7 +14,7 @@ from numpy.random import Generator
 
 from fetch_pomdp.core.ports import Frame, Outcome, Word
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.study.clock import Durations
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.people import grammar, pointing
 from fetch_pomdp.study.people.channel import Channel, MistakenWords
 from fetch_pomdp.study.people.grammar import Words
@@ -199,7 +199,7 @@ class Person:
         if start < self._points_until:
             return
         right, up = (own + people.bias_episode * rng.standard_normal() for own in self._traits.bias)
-        episode = pointing.Episode(
+        episode = pointing.PointingGesture(
             start=start,
             rise=people.point_rise,
             held=people.point_time * self._varied(),

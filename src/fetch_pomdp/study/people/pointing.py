@@ -23,7 +23,7 @@ REST = (0.25, 0.1, -0.95)  # from the head to the wrist of an arm that hangs, in
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Episode:
+class PointingGesture:
     """One pointing: when, where to, and how far off."""
 
     start: float  # s, the arm leaves its rest
@@ -39,7 +39,7 @@ class Episode:
         return self.start + 2 * self.rise + self.held
 
 
-def frames(episode: Episode, head: Point3, target: Point3, reach: float, rng: Generator) -> list[Frame]:
+def frames(episode: PointingGesture, head: Point3, target: Point3, reach: float, rng: Generator) -> list[Frame]:
     """Draw the frames of an arm of `reach` (m) that points from the head to the target (m)."""
     times = _times(episode)
     if not len(times):
@@ -98,12 +98,12 @@ def _unit(vector: Vector) -> Vector:
     return np.asarray(vector / np.linalg.norm(vector))
 
 
-def _times(episode: Episode) -> Vector:
+def _times(episode: PointingGesture) -> Vector:
     """Return when there is a frame: the tracker's ticks do not wait for the arm."""
     return np.arange(math.ceil(episode.start * RATE), math.floor(episode.end * RATE) + 1) / RATE
 
 
-def _raised(times: Vector, episode: Episode) -> Vector:
+def _raised(times: Vector, episode: PointingGesture) -> Vector:
     """Return how far the arm is up at each time, from 0 to 1: it starts and stops without a jerk."""
     if episode.rise == 0.0:
         return np.ones(len(times))

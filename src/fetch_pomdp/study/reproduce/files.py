@@ -10,7 +10,7 @@ from typing import Any
 
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.files.writing import replaced
-from fetch_pomdp.study.clock import Durations
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.reproduce.free import changed
 from fetch_pomdp.study.reproduce.search import Fit

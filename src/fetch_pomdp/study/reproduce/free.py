@@ -10,8 +10,8 @@ from typing import Any
 
 from fetch_pomdp import checks
 from fetch_pomdp.errors import StudyError
-from fetch_pomdp.study.clock import Durations
 from fetch_pomdp.study.design import Study
+from fetch_pomdp.study.durations import Durations
 from fetch_pomdp.study.people.parameters import People
 
 MOST_FREE = 5

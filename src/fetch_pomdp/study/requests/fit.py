@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from fetch_pomdp.core.language.reading.reader import Parsed, parse
 from fetch_pomdp.core.language.reading.speaker import ease
 from fetch_pomdp.core.language.reading.table import Table
 from fetch_pomdp.core.language.reading.tokens import words_of
-from fetch_pomdp.core.language.reading.weights import NAMES, Weights
+from fetch_pomdp.core.language.reading.weights import NAMES, WEIGHTS, Weights
 from fetch_pomdp.extras import load
 from fetch_pomdp.study.requests.corpus import Corpus
 
@@ -143,3 +144,26 @@ def _examples(corpus: Corpus, tables: dict[int, Table], language: Grammar) -> li
             meant += (1.0 - share) * each.clicked
         examples.append(Example(corpus.requests[indices[0]].table, parsed[kind], meant, targets, tuple(indices)))
     return examples
+
+
+def weights_text(theta: Vector, corpus: Corpus, source: str) -> str:
+    """Return the text of a weights file. theta: a point of `Weights.at`, (n_weights,). source: of the requests."""
+    values = Weights.at(theta).values
+    tables = len({each.table for each in corpus.requests})
+    lines = [
+        f"# Learnt from {len(corpus.requests)} requests about {tables} tables: {_plain(source)}",
+        f"# The target counts for {MEANT}, the prior's precision is {PRIOR}. What each one means: weights.py.",
+        "",
+        "[weights]",
+        *(f"{name} = {getattr(values, name):.4g}" for name in WEIGHTS),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def write_weights(path: Path, theta: Vector, corpus: Corpus, source: str) -> None:
+    """Write a weights file, which `weights.weights_of` reads."""
+    path.write_text(weights_text(theta, corpus, source), encoding="utf-8")
+
+
+def _plain(text: str) -> str:
+    return " ".join(text.split())

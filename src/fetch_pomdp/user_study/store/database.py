@@ -24,7 +24,7 @@ from fetch_pomdp.errors import InputError, StoreError
 from fetch_pomdp.extras import require
 
 EXPECTED = "expected sqlite:///FILE or postgresql://USER:PASSWORD@HOST/DATABASE"
-PATIENCE = 60  # s that SQLite waits for another process that writes
+BUSY_TIMEOUT = 60  # s that SQLite waits for another process that writes
 CONNECT = 10  # s that a PostgreSQL server may take to answer
 POOL = 20  # connections to a PostgreSQL server; a new one for each of a crowd would cost more than a commit
 BEGIN = "fetch_pomdp_begin"  # execution option: how a transaction begins on SQLite
@@ -89,7 +89,7 @@ class Database:
     def scrub(self) -> None:
         """Remove what deleted rows have left behind: on SQLite from its files, on PostgreSQL from the tables' pages.
 
-        Raises StoreError if another program reads an older state of the file for longer than PATIENCE.
+        Raises StoreError if another program reads an older state of the file for longer than BUSY_TIMEOUT.
         """
         with self._turn, self._translated(), self._outside.connect() as connection:
             connection.exec_driver_sql("VACUUM")
@@ -158,7 +158,7 @@ def _engine(url: sa.URL) -> Engine:
         return sa.create_engine(url, pool_pre_ping=True, pool_size=POOL, max_overflow=0, connect_args=arguments)
     with contextlib.suppress(OSError):  # connecting says what is wrong
         os.close(os.open(url.database or "", os.O_CREAT | os.O_RDWR, 0o600))  # readable for its owner alone
-    engine = sa.create_engine(url, connect_args={"timeout": PATIENCE})
+    engine = sa.create_engine(url, connect_args={"timeout": BUSY_TIMEOUT})
     sa.event.listen(engine, "connect", _prepare_sqlite)
     sa.event.listen(engine, "begin", _begin_sqlite)
     return engine

@@ -23,7 +23,7 @@ from sqlalchemy import Connection
 
 from fetch_pomdp.errors import StoreError
 from fetch_pomdp.files.recordings import read_recording
-from fetch_pomdp.study.from_logs import trials_of
+from fetch_pomdp.study.trial import trials_of
 from fetch_pomdp.user_study.store.participants import Progress, progress_of, study_named
 from fetch_pomdp.user_study.store.schema import ANSWERS, EVENTS, PARTICIPANTS, SOUNDS, STUDIES, TRIALS
 

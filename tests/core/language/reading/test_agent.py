@@ -7,8 +7,8 @@ import pytest
 
 from fetch_pomdp.core.action import Pick, Point
 from fetch_pomdp.core.agent import Agent
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.reading.reader import TableReader
+from fetch_pomdp.core.language.words import Meaning
 from fetch_pomdp.core.observation import Observation
 from tests.core.language.reading.tables import LINE, READER
 

@@ -75,7 +75,7 @@ class Arm:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Durations:
+class MeasuredDurations:
     """Measured times, s, medians over random tables (benchmarks/robot.py)."""
 
     point: float  # from rest to pointing at an item
@@ -95,7 +95,7 @@ class RobotDescription:
     speed: float  # rad/s, of the fastest joint
     gripper: Gripper
     arms: tuple[Arm, ...]
-    durations: Durations
+    durations: MeasuredDurations
     without: tuple[str, ...] = ()  # geoms of the model that are left out
     boxes: tuple[Box, ...] = ()  # what stands in for them
 
@@ -122,7 +122,9 @@ class RobotDescription:
         boxes = tuple(_within(f"boxes[{index}]", _box, fields) for index, fields in enumerate(values.get("boxes", ())))
         if not arms:
             raise RobotDescriptionError("found no arms, expected one or more", field="arms")
-        durations = _within("durations", lambda fields: Durations(**_fields(Durations, fields)), values["durations"])
+        durations = _within(
+            "durations", lambda fields: MeasuredDurations(**_fields(MeasuredDurations, fields)), values["durations"]
+        )
         return cls(**{**values, "durations": durations, "gripper": gripper, "arms": arms, "boxes": boxes})
 
     def file(self, path: str) -> Path:

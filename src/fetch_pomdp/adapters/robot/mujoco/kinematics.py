@@ -17,7 +17,7 @@ from fetch_pomdp.extras import load
 NEAR, STRAIGHT = 0.0005, 0.003  # m and rad: what is near enough
 LONGEST = 0.4  # rad, of a joint in one iteration
 ITERATIONS = 40
-PATIENCE = 8  # iterations without getting nearer, after which it is given up
+MOST_WITHOUT_GAIN = 8  # iterations without getting nearer, after which it is given up
 STEP = 0.1  # s of mink's integration, whose length cancels out
 
 
@@ -72,7 +72,7 @@ class Kinematics:
                 return np.array(configuration.q[self._order])
             since = 0 if far + 0.3 * tilt < 0.95 * best else since + 1
             best = min(best, far + 0.3 * tilt)
-            if since > PATIENCE:
+            if since > MOST_WITHOUT_GAIN:
                 return None
             velocity = mink.solve_ik(
                 configuration, [task, self._posture], STEP, "daqp", damping=1e-6, limits=self._limits

@@ -1,7 +1,10 @@
-"""The world that the robot acts in: MuJoCo's model and state of a layout, by the names of arms and items."""
+"""The world that the robot acts in: MuJoCo's model and state of a layout, by the names of arms and items,
+and the pacer that makes its time that of the wall.
+"""
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,6 +21,7 @@ from fetch_pomdp.extras import load
 GRAVITY = 9.81  # m/s^2
 PULL, TUG = 3.0, 1.5  # N, of somebody who takes what they are handed, and before that
 SETTLE = 0.4  # s in which the items come to rest
+CAUGHT_UP = 0.25  # s behind the wall at the most: what is lost beyond is not caught up
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,3 +187,19 @@ def _index(model: Any, arm: Arm, drives: int) -> ArmIndex:
         ranges[:, 0],
         ranges[:, 1],
     )
+
+
+class RealTimePacer:
+    """Waits, after a step of the world, until as much time has passed outside as inside."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._offset = time.monotonic() - world.time
+
+    def __call__(self) -> None:
+        """Wait; begin anew after a pause in which the world stood still."""
+        early = self._world.time + self._offset - time.monotonic()
+        if early > 0.0:
+            time.sleep(early)
+        elif early < -CAUGHT_UP:
+            self._offset = time.monotonic() - self._world.time

@@ -15,12 +15,11 @@ import numpy as np
 
 from fetch_pomdp.core.language import english, german
 from fetch_pomdp.core.language.answers import AROUND, After, Lexicon, Reading
-from fetch_pomdp.core.language.meaning import STAND_INS, Meaning
 from fetch_pomdp.core.language.names import with_names
 from fetch_pomdp.core.language.reading.reader import Context, Reader
 from fetch_pomdp.core.language.reading.tokens import STOP, words_of
 from fetch_pomdp.core.language.unigram import Utterance, base_log_likelihood
-from fetch_pomdp.core.language.words import COURTESY
+from fetch_pomdp.core.language.words import COURTESY, STAND_INS, Meaning
 from fetch_pomdp.core.observation import Said
 from fetch_pomdp.core.problem import Problem
 

@@ -10,8 +10,7 @@ import pytest
 
 from fetch_pomdp.errors import EventError
 from fetch_pomdp.files.recordings import Recording, read_recording
-from fetch_pomdp.study.from_logs import trials_of
-from fetch_pomdp.study.trial import Trial
+from fetch_pomdp.study.trial import Trial, trials_of
 
 HEADER = {"scene": "ambiguous", "planner": "sparse", "target": "bowl-2", "person": 3}
 EVENTS = [

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from fetch_pomdp.errors import ModelError
-from fetch_pomdp.study.clock import Durations
+from fetch_pomdp.study.durations import Durations
 
 
 def test_steps_are_made_of_the_robots_doings() -> None:
