@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import math
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,20 @@ from fetch_pomdp.core.planners.thresholds import Threshold
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import Interactions, played_out
-from fetch_pomdp.core.turns import DESIRED, NO, OTHER, REPEAT, SILENT, UNSURE, WIDTH, YES, Turns, phases_of, places_of
+from fetch_pomdp.core.turns import (
+    DESIRED,
+    NO,
+    OTHER,
+    REPEAT,
+    SILENT,
+    UNSURE,
+    WIDTH,
+    YES,
+    Turns,
+    answered_at_all,
+    phases_of,
+    places_of,
+)
 from fetch_pomdp.errors import InputError, ModelError
 from tests.oracles.talking import (
     EVERY_ANSWER,
@@ -102,6 +116,34 @@ def test_talks_by_hand(talk: int, action: int, words: int, pointing: int, expect
     found = phases_of(SHORT).following
     for question, answer in itertools.product(range(11), range(5)):
         assert found[phase(talk, question), action, words, pointing, answer] // 11 == expected
+
+
+@pytest.mark.parametrize(
+    ("question", "open_now", "asked_now"),
+    [
+        (NONE, (), ("desired 0", "desired 2", "desired 3")),
+        (DENIED, (), ("desired 0", "desired 2", "desired 3")),
+        (OPEN, ("desired 2", "desired 3"), ("desired 1", "desired 2", "desired 3")),
+        (OPEN + 1, ("desired 3",), ("desired 1", "desired 2", "desired 3")),
+        (OPEN + LATE, (), ("again 0", "desired 2", "desired 3")),
+        (AGAIN + LATE, (), ("again 1", "desired 2", "desired 3")),
+        (THIRD + LATE, (), ("again 2",)),  # and after that nobody waits for an answer
+    ],
+)
+def test_an_answer_at_all_is_no_silence_to_the_end(
+    question: int, open_now: tuple[str, ...], asked_now: tuple[str, ...]
+) -> None:
+    turns = numbered(patience=3, question=2, gesturing=2, hesitation=2)
+
+    def at_all(steps: tuple[str, ...], kind: str) -> float:
+        names = [step.replace("desired", kind).split() for step in steps]
+        chances = [float(getattr(turns, f"answers_{name}")[int(index)]) for name, index in names]
+        return 1.0 - math.prod(1.0 - chance for chance in chances)
+
+    for talk in range(13):
+        for column, steps in enumerate((open_now, asked_now)):
+            expected = (at_all(steps, "desired") + at_all(steps, "other")) / 2
+            assert answered_at_all(turns)[phase(talk, question), column] == pytest.approx(expected, abs=1e-12)
 
 
 @pytest.mark.parametrize(

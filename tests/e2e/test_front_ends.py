@@ -38,8 +38,8 @@ from tests.e2e.conftest import PATIENCE, Person, Server
 
 MARKERS, SPOONS = {"marker-1", "marker-2"}, {"spoon-1", "spoon-2"}
 REQUEST, OBJECTION, SECOND = "hand me the marker", "no, wrong one", "hand me the silver spoon"
-# In this situation the others hand something over at once, or wait for more words (docs/serve.md).
-ASKING = ("fitted", "exact", "sparse", "threshold", "always", "chai", "williams-young")
+# The others never ask: they hand something over at once (docs/serve.md).
+ASKING = ("fitted", "exact", "sparse", "threshold", "always", "chai", "williams-young", "doshi-roy", "information-gain")
 OFFERED = ("fitted", "threshold", "always")  # by the page's settings
 SOON = 3.0  # s
 

@@ -244,6 +244,23 @@ def phases_of(turns: Turns) -> Phases:
     )
 
 
+@functools.lru_cache(maxsize=32)
+def answered_at_all(turns: Turns) -> Vector:
+    """Return the chances that the open question, and that one asked now, is answered before it is late, (phases, 2).
+
+    The first is 0 where none is open. Each holds if nothing else is said or shown meanwhile, and is the mean over
+    whether the item asked about is the desired one.
+    """
+    known = phases_of(turns)
+    silence = 1.0 - known.chances[:, :, DESIRED:WIDTH]  # (phases, 2 kinds of step, 2)
+    quiet, at = np.ones((len(known.late), 2)), np.arange(len(known.late))
+    for _ in range(turns.hesitation):  # after as many steps no question is open that is not late
+        quiet *= np.where(known.awaited[at, None] == 1, silence[at, 0], 1.0)
+        at = known.following[at, 0, 0, 0, SILENT]
+    after_asking = silence[:, 1] * quiet[known.following[:, 1, 0, 0, SILENT]]
+    return np.asarray(1.0 - np.stack([quiet, after_asking], axis=1).mean(axis=2))
+
+
 def places_of(phase: int, asked: int, turns: Turns) -> tuple[tuple[str, int], ...]:
     """Return where `Turns` has the chances of a step: fields and indices, in the order of StepChances.
 

@@ -13,6 +13,7 @@ from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Outcome
+from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.files.header import Header
@@ -23,6 +24,9 @@ from tests.study.calibrate.people import SCENES, TRUTH, logs
 
 NO, YES = Observed(Observation(("no",))), Observed(Observation(("yes",)))
 MARKER = Observed(Observation(("marker",)))
+
+
+TABLE = Problem(SCENES[0])
 
 
 def repeated(action: Wait | Point, seen: Observed, times: int) -> list[Event]:
@@ -55,7 +59,7 @@ def test_steps_of_an_interaction() -> None:
         Acted(Wait()),  # followed by silence that nobody recorded
         Acted(Pick(2)),
     ]
-    assert list(steps_of(events)) == [
+    assert list(steps_of(events, TABLE)) == [
         Step(Wait(), None, Observation(("marker", "yes"), ray)),
         Step(Point(1), 1, Observation(("no",))),
         Step(Wait(), 1, Observation(("marker",))),
@@ -76,10 +80,28 @@ def test_steps_go_on_after_a_return_and_end_with_a_second_request() -> None:
         Acted(Point(0)),
         YES,
     ]
-    assert list(steps_of(events)) == [
+    assert list(steps_of(events, TABLE)) == [
         Step(Wait(), None, Observation(("marker",))),
         Step(Point(3), 3, Observation(("no",))),
     ]
+
+
+@pytest.mark.parametrize("said", [("cancel",), ("cancel", "bowl")])
+@pytest.mark.parametrize("last", [Wait(), Point(1)])
+def test_steps_end_where_nothing_is_wanted_any_more(said: tuple[str, ...], last: Wait | Point) -> None:
+    """What somebody wants next is not known, and who says "never mind" has not been silent to the question."""
+    begun: list[Event] = [Acted(Wait()), MARKER]
+    events = [*begun, Acted(last), Observed(Observation(said)), Acted(Wait()), MARKER, Acted(Point(2)), YES]
+    assert list(steps_of(events, TABLE)) == list(steps_of(begun, TABLE)) == [
+        Step(Wait(), None, Observation(("marker",)))
+    ]  # fmt: skip
+
+
+def test_a_table_may_have_a_word_for_never_mind() -> None:
+    button = dataclasses.replace(SCENES[0].items[0], vocabulary=("cancel", "button"))
+    problem = Problem(dataclasses.replace(SCENES[0], items=(button, *SCENES[0].items[1:])))
+    events: list[Event] = [Acted(Wait()), Observed(Observation(("cancel", "button")))]
+    assert list(steps_of(events, problem)) == [Step(Wait(), None, Observation(("cancel", "button")))]
 
 
 def test_the_desired_item_must_be_known() -> None:

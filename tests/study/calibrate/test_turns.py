@@ -99,6 +99,14 @@ def test_a_second_request_is_not_counted() -> None:
     assert tally([both], START) == tally([one], START)
 
 
+def test_what_follows_never_mind_is_not_counted() -> None:
+    """Neither as this request nor as silence: the robot has begun anew."""
+    one = interaction(0)
+    events: list[Event] = [Acted(Point(0)), Observed(Observation(("cancel",))), *interaction(1).events]
+    both = dataclasses.replace(one, events=(*one.events, *events))
+    assert tally([both], START) == tally([one], START)
+
+
 def test_an_interaction_by_hand() -> None:
     """Nothing, then words, a question that is answered by "no", a wait with pointing, a pick."""
     scene = PEOPLE.scene

@@ -55,7 +55,7 @@ def offsets(interactions: Sequence[tuple[int, Interaction]], stratum: Integers) 
 
 def _errors(one: Interaction) -> Iterator[tuple[float, float]]:
     problem = Problem(one.scene)
-    for step in steps_of(one.events):
+    for step in steps_of(one.events, problem):
         ray = step.observation.ray
         if ray is not None and gesture.is_pointing(ray, problem):
             yield error_of(ray, problem.positions[one.desired])

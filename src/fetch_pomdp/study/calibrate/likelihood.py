@@ -109,7 +109,7 @@ def records_of(interactions: Sequence[Interaction]) -> Records:
         scene = scenes.setdefault(one.scene, len(scenes))
         person = people.setdefault(one.person, len(people))
         problem = Problem(one.scene)
-        for step in steps_of(one.events):
+        for step in steps_of(one.events, problem):
             for cases, case in zip(kinds, _cases(step, scene, one.desired, problem), strict=True):
                 cases.append(case)
             numbers.append((number, person, scene))

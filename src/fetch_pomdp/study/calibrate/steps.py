@@ -9,7 +9,10 @@ from dataclasses import dataclass
 from fetch_pomdp.core.action import Action, Pick, Wait
 from fetch_pomdp.core.events import Event, Observed
 from fetch_pomdp.core.generative import asked_after
+from fetch_pomdp.core.language.meaning import Meaning
+from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.files.header import Header
@@ -47,18 +50,19 @@ def interaction_of(header: Header, events: Iterable[Event], source: str = "") ->
     return Interaction(header.scene, header.scene.index(header.target), person, tuple(events))
 
 
-def steps_of(events: Iterable[Event]) -> Iterator[Step]:
-    """Yield the steps of an interaction.
+def steps_of(events: Iterable[Event], problem: Problem) -> Iterator[Step]:
+    """Yield the steps of an interaction about a problem's scene.
 
     Choice: observations that follow one another without an action between are of one step: an answer that came before
     the question had been asked belongs to the step before. An action that was not done is a wait, but for a pick that
-    was stopped, which is a question. A second request is another interaction, whose desired item nobody wrote down.
+    was stopped, which is a question. A second request is another interaction, whose desired item nobody wrote down; so
+    is what follows "never mind", after which the robot begins anew, and the step in which that is said tells nothing.
     """
     asked: int | None = None
     open_step: Step | None = None
     for event in events:
-        if isinstance(event, Observed) and event.anew:
-            break
+        if isinstance(event, Observed) and (event.anew or _cancels(event, problem)):
+            return
         if isinstance(event, Observed):
             open_step = _with(open_step or Step(Wait(), asked, Observation()), event.observation)
             continue
@@ -69,6 +73,10 @@ def steps_of(events: Iterable[Event]) -> Iterator[Step]:
         open_step = None if isinstance(action, Pick) else Step(action, asked, Observation())
     if open_step is not None:
         yield open_step
+
+
+def _cancels(event: Observed, problem: Problem) -> bool:
+    return split(event.observation.words, problem).meaning is Meaning.CANCEL
 
 
 def _with(step: Step, observation: Observation) -> Step:

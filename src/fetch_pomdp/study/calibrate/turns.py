@@ -59,7 +59,7 @@ def tally(interactions: Iterable[Interaction], start: Turns) -> Tally:
             model = one.scene.model.with_changes({"turns": start})
             problems[one.scene] = Problem(dataclasses.replace(one.scene, model=model))
         problem, phase = problems[one.scene], 0
-        for step in steps_of(one.events):
+        for step in steps_of(one.events, problem):
             _count(step, phase, one.desired, problem, start, found)
             phase = phase_after(step.observation, step.action, problem, phase, asked=step.asked)
     return found

@@ -15,6 +15,8 @@ from numpy.random import default_rng
 
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.observation import Observation, phase_after
 from fetch_pomdp.core.planners.base import Planner, code_of, decide_many
 from fetch_pomdp.core.planners.baselines.rules import (
     ChaiRule,
@@ -26,10 +28,10 @@ from fetch_pomdp.core.planners.baselines.rules import (
 from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, WilliamsYoung
 from fetch_pomdp.core.planners.kernels import ASKED, Turn, answered
 from fetch_pomdp.core.simulation import simulate
-from fetch_pomdp.core.turns import YES
+from fetch_pomdp.core.turns import YES, Turns
 from fetch_pomdp.errors import PlannerError
 from tests.core.planners.baselines.acting import AMBIGUOUS, act
-from tests.tables import table, twins
+from tests.tables import live, table, twins
 
 BASELINES: list[Planner] = [ChaiRule(), WilliamsYoung(), DoshiRoy(), InformationGain(), OneShot()]
 
@@ -109,12 +111,12 @@ def test_information_is_the_entropy_that_answers_take(weights: list[float], p_tr
             after = np.empty(len(belief))
             chance = answered(belief, Turn(item, 0, ASKED), answer, after, problem.tables)
             kept += chance * entropy(after) if chance > 0 else 0.0
-        assert found == pytest.approx(entropy(belief) - kept, abs=1e-9)
+        assert p_l * found == pytest.approx(entropy(belief) - kept, abs=1e-9)
 
 
 def test_information_of_a_question_between_two() -> None:
-    """Even chances: p_l (1 - H(.99)), and H(.99) = .0808 bits."""
-    assert answer_information(np.array([0.5, 0.5]), twins(2)) == pytest.approx([0.95 * (1 - 0.080793)] * 2, abs=1e-5)
+    """Even chances: 1 - H(.99), and H(.99) = .0808 bits."""
+    assert answer_information(np.array([0.5, 0.5]), twins(2)) == pytest.approx([1 - 0.080793] * 2, abs=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -136,6 +138,55 @@ def test_what_no_question_is_worth_is_picked_or_waited_for() -> None:
     """Without worth a pick against a wait: 22.5 b - 12.5 reaches -1 at b = .5111."""
     assert act(InformationGain(worth=0.0), [0.52, 0.28, 0.2]) == Pick(0)
     assert act(InformationGain(worth=0.0), [0.50, 0.30, 0.2]) == Wait()
+
+
+LIVE = live(table([["thing"]] * 3))
+
+
+def after(*steps: tuple[Action, Observation]) -> int:
+    """The phase of live people after actions and what was perceived in their steps; item 0 is asked about."""
+    phase = 0
+    for action, seen in steps:
+        phase = phase_after(seen, action, LIVE, phase, asked=0)
+    return phase
+
+
+REQUEST = (Wait(), Observation(("thing",)))
+QUIET, ASKED_OF_NOBODY = (Wait(), Observation()), (Point(0), Observation())
+LATE = (ASKED_OF_NOBODY, *[QUIET] * Turns().hesitation)
+
+
+@pytest.mark.parametrize(
+    ("steps", "expected"),
+    [
+        ((REQUEST,), Point(0)),
+        ((REQUEST, *[QUIET] * 20), Point(0)),  # an even chance: words that do not come are not waited for
+        ((REQUEST, ASKED_OF_NOBODY), Wait()),  # the answer comes after a wait, too
+        ((REQUEST, ASKED_OF_NOBODY, QUIET, QUIET), Wait()),
+        ((REQUEST, *LATE), Point(0)),  # it was not heard
+        ((REQUEST, *LATE, *LATE, *LATE), Pick(0)),  # nobody answers: what is best without
+    ],
+)
+def test_live_people_are_asked_once_and_waited_for(
+    steps: tuple[tuple[Action, Observation], ...], expected: Action
+) -> None:
+    belief, phase = Belief([0.5, 0.5, 0.0]), after(*steps)
+    asked = 0 if len(steps) > 1 and steps[1] == ASKED_OF_NOBODY else None
+    found = InformationGain().decide(LIVE, belief, asked, rng=default_rng(0), phase=phase)
+    assert found.action == expected
+    many = decide_many(
+        InformationGain(), LIVE, belief.probabilities[None], np.array([-1 if asked is None else asked]),
+        rng=default_rng(0), phases=np.array([phase]),
+    )  # fmt: skip
+    assert many.tolist() == [code_of(expected, LIVE)]
+
+
+def test_a_wait_for_live_people_costs_as_many_as_it_takes() -> None:
+    """Without worth, a belief of .4: a pick earns -3.5, and a wait for what comes in one of five costs about 5."""
+    cheap, belief = InformationGain(worth=0.0), Belief([0.4, 0.35, 0.25])
+    pointed = after((Wait(), Observation((), Ray((0.0, 0.0, 1.6), (0.0, 0.5, 1.4)))))
+    assert cheap.decide(LIVE, belief, None, rng=default_rng(0), phase=after(REQUEST)).action == Pick(0)
+    assert cheap.decide(LIVE, belief, None, rng=default_rng(0), phase=pointed).action == Wait(), "words are due"
 
 
 def test_one_shot_picks_at_the_first_sign() -> None:

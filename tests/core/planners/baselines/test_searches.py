@@ -12,9 +12,11 @@ from numpy.random import default_rng
 
 from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
+from fetch_pomdp.core.observation import Observation, phase_after
 from fetch_pomdp.core.planners.baselines.rules import PaperAlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import DoshiRoy, PaperNeverAsk, WilliamsYoung
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
+from fetch_pomdp.core.turns import Turns
 from tests.core.planners.baselines.acting import AMBIGUOUS, act, decision
 from tests.core.planners.test_contract import plain
 from tests.tables import twins
@@ -99,3 +101,23 @@ def test_doshi_and_roy_are_the_search_itself_where_people_answer_once() -> None:
         assert plain(forgetful) == plain(keeping)
     kept = decision(ExactAnswers(), [0.5, 0.5, 0.0, 0.0], 0, twins(4))
     assert plain(decision(DoshiRoy(), [0.5, 0.5, 0.0, 0.0], 0, twins(4))) != plain(kept)
+
+
+def test_doshi_and_roy_count_an_answer_at_all_before_live_people() -> None:
+    """Twins, b = (.5, .5, 0), a person who never points and has been heard: an answer, true with .99, then a pick.
+
+    It comes with .939 if the item is desired and with .959 if not: in the question's step, or the five after it.
+    """
+    turns = Turns()
+    at_all = np.mean([
+        1 - math.prod(1 - chances[age] for age in (0, 2, 3, 3, 3, 3))
+        for chances in (turns.answers_desired, turns.answers_other)
+    ])  # fmt: skip
+    problem = twins(3, turns=turns)
+    heard = phase_after(Observation(("thing",)), Wait(), problem, asked=None)
+    found = DoshiRoy(width=1).decide(problem, Belief([0.5, 0.5, 0.0]), None, rng=default_rng(0), phase=heard)
+    settled = 22.5 * 0.99 - 12.5
+    after_silence = -6 + at_all * settled + (1 - at_all) * (-1.25)
+    assert found.point[0] == pytest.approx(-6 + at_all * settled + (1 - at_all) * after_silence, abs=1e-9)
+    assert found.wait == pytest.approx(-1 + after_silence, abs=1e-9), "a wait brings no answer"
+    assert isinstance(found.action, Point)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.random import Generator
@@ -25,8 +26,9 @@ from fetch_pomdp.core.planners.base import (
     pick_values,
     unvalued,
 )
-from fetch_pomdp.core.planners.kernels import NOBODY
+from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED
 from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.turns import POINTS, WORDS, answered_at_all
 from fetch_pomdp.errors import PlannerError
 
 Rule = Callable[[Vector], Integers]  # beliefs (k, n_items) to actions (k,), as in `planners.base`
@@ -109,6 +111,10 @@ class InformationGain:
     Choice: a worth of 1/2. A bit that decides between two items alike makes a sure pick of an even chance, and so earns
     half of what a right pick earns over a wrong one.
 
+    Choice: live people answer a question once, in its own step or a later one. So before them an answer counts with the
+    chance that it comes at all; what an open question will still tell comes after a wait, too, so that the wait is
+    worth that much more; and a wait for something else costs as many as it takes until something comes.
+
     It values picks alone. Raises PlannerError for a worth that is no number from 0 to 1000.
     """
 
@@ -128,33 +134,55 @@ class InformationGain:
         phase: int = 0,
     ) -> Decision:
         """Choose by rule."""
-        return decided(lambda beliefs: self._actions(beliefs, problem), problem, belief, asked)
+        about, phases = np.array([NOBODY if asked is None else asked]), np.array([phase])
+        return decided(lambda beliefs: self._actions(beliefs, about, phases, problem), problem, belief, asked)
 
     def decide_many(
         self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
     ) -> Integers:
         """Choose an action for every belief; see `base.decide_many`."""
-        return self._actions(beliefs, problem)
+        return self._actions(beliefs, asked, np.zeros_like(asked) if phases is None else phases, problem)
 
-    def _actions(self, beliefs: Vector, problem: Problem) -> Integers:
-        tables = problem.tables
-        earned = tables.pick_correct - tables.pick_wrong
-        gains = answer_information(beliefs, problem)
-        asks = self.worth * earned * gains.max(axis=1) > tables.wait - tables.point
-        actions = question_or_pick(beliefs, gains.argmax(axis=1), asks)
-        waits = ~asks & (pick_values(beliefs, problem).max(axis=1) < tables.wait)
+    def _actions(self, beliefs: Vector, asked: Integers, phases: Integers, problem: Problem) -> Integers:
+        tables, due = problem.tables, expected_of(problem)
+        per_bit = self.worth * (tables.pick_correct - tables.pick_wrong)
+        bits = answer_information(beliefs, problem)
+        by_asking = bits.max(axis=1) * due.if_asked[phases]
+        by_waiting = bits[np.arange(len(beliefs)), asked] * due.if_awaited[phases]
+        asks = per_bit * (by_asking - by_waiting) > tables.wait - tables.point
+        actions = question_or_pick(beliefs, bits.argmax(axis=1), asks)
+        poor = pick_values(beliefs, problem).max(axis=1) < tables.wait / due.in_a_wait[phases]
+        waits = ~asks & (poor | (per_bit * by_waiting > -tables.wait))
         return np.where(waits, NOBODY, actions)
 
 
-def answer_information(beliefs: Vector, problem: Problem) -> Vector:
-    """Return the bits that the answer to a question about each item is expected to take from the entropy of a belief.
+class Expected(NamedTuple):
+    """What a greedy robot expects of people in each phase, (phases,): chances."""
 
-    That is the mutual information of item and answer (Eq. 6, Table I), whatever else is heard left out:
-    p_l (H(yes) - H(p_truth)), with H(p) = -p log2 p - (1 - p) log2 (1 - p). beliefs, and the result: (..., n_items).
+    if_asked: Vector  # of an answer to a question asked now
+    if_awaited: Vector  # of an answer to the open question
+    in_a_wait: Vector  # of anything at all in the step after a wait
+
+
+def expected_of(problem: Problem) -> Expected:
+    """Return what to expect; under the paper's constant chances an answer in the question's step, words in a wait."""
+    tables, turns = problem.tables, problem.model.turns
+    if turns is None:
+        return Expected(np.array([problem.model.p_l]), np.zeros(1), np.ones(1))
+    at_all, chances = answered_at_all(turns), tables.chances[:, WAITED]
+    silent = (1.0 - chances[:, WORDS]) * (1.0 - chances[:, POINTS]) * (1.0 - at_all[:, WAITED])
+    return Expected(at_all[:, ASKED], at_all[:, WAITED], 1.0 - silent)
+
+
+def answer_information(beliefs: Vector, problem: Problem) -> Vector:
+    """Return the bits that an answer about each item is expected to take from the entropy of a belief.
+
+    That is the mutual information of item and answer (Table I), whatever else is heard left out: H(yes) - H(p_truth),
+    with H(p) = -p log2 p - (1 - p) log2 (1 - p). beliefs, and the result: (..., n_items).
     """
     p_truth = problem.model.p_truth
     yes = p_truth * beliefs + (1.0 - p_truth) * (1.0 - beliefs)
-    return problem.model.p_l * (binary_entropy(yes) - binary_entropy(np.array(p_truth)))
+    return binary_entropy(yes) - binary_entropy(np.array(p_truth))
 
 
 def binary_entropy(chance: Vector) -> Vector:

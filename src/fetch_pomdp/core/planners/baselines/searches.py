@@ -22,12 +22,12 @@ from fetch_pomdp.core.planners.base import (
     unvalued,
     whole_number,
 )
-from fetch_pomdp.core.planners.kernels import WAITED
+from fetch_pomdp.core.planners.kernels import ASKED, WAITED
 from fetch_pomdp.core.planners.search.leaf import last_action
 from fetch_pomdp.core.planners.search.planner import ExactAnswers, default_width, searched
 from fetch_pomdp.core.planners.search.tree import Search
-from fetch_pomdp.core.problem import Problem
-from fetch_pomdp.core.turns import DESIRED, OTHER
+from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.turns import DESIRED, OTHER, answered_at_all
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,8 @@ class DoshiRoy:
     Choice: only the plan forgets. The belief that it is handed has read late answers with i_r, as all planners' have.
 
     Choice: the answer in the question's own step counts. If it did not, no question would be worth its price, and this
-    were one more robot that never asks.
+    were one more robot that never asks. Live people answer in the next step as often as in the question's own, so that
+    before them an answer that comes at all, before the question is late, counts there.
 
     Raises PlannerError for a depth or width that is no whole number in range; it looks two actions ahead or more.
     """
@@ -127,9 +128,20 @@ class DoshiRoy:
         """Choose the action with the highest value."""
         width = self.width or default_width(problem.n_items)
         search = Search(self.depth, width, problem.n_items, exact=True, leaf_asks=True)
-        checked_asked(belief.probabilities, asked, problem)
-        # Nothing was asked before, and no answer comes after a wait.
-        chances = problem.tables.chances.copy()
-        chances[:, WAITED, [DESIRED, OTHER]] = 0.0
-        tables = problem.tables._replace(p_again=0.0, chances=chances)
-        return searched(problem, belief, None, search, rng=rng, phase=phase, tables=tables)
+        checked_asked(belief.probabilities, asked, problem, phase)
+        return searched(problem, belief, None, search, rng=rng, phase=phase, tables=_forgetful(problem, phase))
+
+
+def _forgetful(problem: Problem, phase: int) -> Tables:
+    """Return tables by which nothing was asked before a step, and no answer comes after a wait.
+
+    phase: where the search begins; its leaf, which knows no phases, expects an answer as of a question asked there.
+    """
+    tables, turns, p_answer = problem.tables, problem.model.turns, problem.tables.p_answer
+    chances = tables.chances.copy()
+    chances[:, WAITED, [DESIRED, OTHER]] = 0.0
+    if turns:
+        at_all = answered_at_all(turns)[:, ASKED]
+        chances[:, ASKED, [DESIRED, OTHER]] = at_all[:, np.newaxis]
+        p_answer = float(at_all[phase])
+    return tables._replace(p_answer=p_answer, p_again=0.0, chances=chances)
