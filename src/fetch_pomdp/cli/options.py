@@ -37,6 +37,12 @@ Ears = Annotated[
         metavar="NAME", help="What hears: sphinx, whisper:MODEL or vosk:DIR (docs/speech.md).  [default: sphinx]"
     ),
 ]
+ReaderName = Annotated[
+    str,
+    typer.Option(
+        "--reader", metavar="NAME", help="What reads words: table, table:LANGUAGE, openai:MODEL@URL (docs/reading.md)."
+    ),
+]
 Seed = Annotated[int | None, typer.Option(min=0, help="The same seed gives the same result.  [default: 0]")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 RobotName = Annotated[

@@ -119,7 +119,7 @@ class TableReader:
     """Reads with a grammar, with weights learnt from what people said. Keeps what it computed of the last scenes."""
 
     def __init__(self, language: str = "english", weights: Weights | None = None) -> None:
-        self.grammar = grammar(language)
+        self.language, self.grammar = language, grammar(language)
         self.weights = Weights.of(shipped()) if weights is None else weights
         self._prior = view_prior(self.weights)
         self._places: dict[int, _Place] = {}
