@@ -3,6 +3,9 @@
 import hashlib
 import os
 import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -61,3 +64,13 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "load: many people at once on a server, half a minute; Linux")
     # Without compilation SplitMix64 wraps around in NumPy scalars, which warn.
     config.addinivalue_line("filterwarnings", "ignore:overflow encountered:RuntimeWarning")
+
+
+@pytest.fixture(scope="session")
+def served() -> Iterator[str]:
+    """The URL of a language model's server, a process of its own: `tests.adapters.reading.served_model`."""
+    command = [sys.executable, "-m", "tests.adapters.reading.served_model"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as process:
+        assert process.stdout is not None
+        yield f"http://127.0.0.1:{int(process.stdout.readline())}/v1"
+        process.kill()

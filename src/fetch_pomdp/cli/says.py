@@ -9,36 +9,37 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from rich.markup import escape
+from rich.progress import track
 from rich.table import Table
 
-from fetch_pomdp.cli.options import Json, SceneName, as_json
+from fetch_pomdp.adapters.reading.choice import DEFAULT, reader_named
+from fetch_pomdp.adapters.reading.endpoint import EndpointReader
+from fetch_pomdp.cli.options import Json, ReaderName, SceneName, as_json, counted
 from fetch_pomdp.cli.show import MOST_BARS
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.compiled import Vector
-from fetch_pomdp.core.language.reading.grammar import LANGUAGES
-from fetch_pomdp.core.language.reading.reader import Context, Heard, TableReader
+from fetch_pomdp.core.language.reading.calibration import Calibration
+from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader, TableReader
 from fetch_pomdp.core.language.reading.telling import told
 from fetch_pomdp.core.language.reading.tokens import words_of
-from fetch_pomdp.core.language.reading.weights import Weights, weights_of
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.errors import InputError
-from fetch_pomdp.study.requests.corpus import load_corpus
+from fetch_pomdp.errors import EndpointError, InputError, StudyError
+from fetch_pomdp.study.requests.calibration import Record, fitted, log_loss, write_calibration
+from fetch_pomdp.study.requests.corpus import Corpus, load_corpus
 from fetch_pomdp.study.requests.fit import Learner, write_weights
 
 Says = Annotated[list[str], typer.Option("--says", metavar="TEXT", help="What is said; repeatable, in order.")]
-Language = Annotated[str, typer.Option(help=f"One of {', '.join(LANGUAGES)}.")]
-
-
+OURS = Calibration(own=1.0 - 1e-9, even=1e-9)  # our own reader alone
 WeightsFile = Annotated[
     Path | None,
-    typer.Option("--weights", metavar="F.toml", help="Weights in place of ours, of fit-reader."),
+    typer.Option("--weights", metavar="F.toml", help="What fit-reader learnt for that reader, in place of ours."),
 ]
 
 
 def explain(
     scene: SceneName,
     says: Says,
-    language: Language = "english",
+    reader: ReaderName = DEFAULT,
     weights: WeightsFile = None,
     json_lines: Json = False,
 ) -> None:
@@ -46,12 +47,9 @@ def explain(
 
     With --json, or into a file or pipe, one JSON object for each --says.
     """
-    if language not in LANGUAGES:
-        raise InputError(f"found {language!r}, expected one of {', '.join(LANGUAGES)}", field="language")
-    learnt = None if weights is None else Weights.of(weights_of(weights))
-    table, reader, context = Scene.load(scene), TableReader(language, learnt), Context()
+    table, reads, context = Scene.load(scene), _reader(reader, weights), Context()
     for text in says:
-        heard = reader.read(words_of(text), table, context)
+        heard = reads.read(words_of(text), table, context)
         context = heard.context
         chances = np.exp(heard.log_likelihood)
         if as_json(json_lines):
@@ -63,17 +61,50 @@ def explain(
 def fit_reader(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A corpus: tables.json and requests.csv.")],
     out: Annotated[Path, typer.Option(metavar="F.toml", help="Where the weights go.")],
+    reader: ReaderName = DEFAULT,
     source: Annotated[str, typer.Option(help="Where the requests come from, for the file.")] = "a corpus of requests",
     steps: Annotated[int, typer.Option(min=1, help="Steps of the fit.")] = 14,
 ) -> None:
     """Learn the reader's weights from requests whose target is known (docs/reading.md); some minutes.
 
-    Needs pip install "fetch-pomdp[study]". How good they are on tables that they were not learnt from:
-    benchmarks/requests.py.
+    Of a language model it is learnt how far to believe it. Needs pip install "fetch-pomdp[study]". How good the weights
+    are on tables that they were not learnt from: benchmarks/requests.py.
     """
-    corpus = load_corpus(folder)
-    theta = Learner(corpus).fit(list(corpus.scenes), steps=steps)
-    write_weights(out, theta, corpus, source)
+    corpus, found = load_corpus(folder), _reader(reader, None)
+    if isinstance(found, EndpointReader):
+        _calibrate(found, corpus, out, source)
+    elif isinstance(found, TableReader):
+        theta = Learner(corpus, found.language).fit(list(corpus.scenes), steps=steps)
+        write_weights(out, theta, corpus, source)
+
+
+def _reader(name: str, weights: Path | None) -> Reader:
+    found = reader_named(name, weights=weights)
+    if found is None:
+        raise InputError(
+            f"found {name!r}, expected a reader of more than single words: {DEFAULT} or another", field="reader"
+        )
+    return found
+
+
+def _calibrate(reader: EndpointReader, corpus: Corpus, out: Path, source: str) -> None:
+    """Fit how far to believe a model to the requests that it answers, write it and print what it is worth."""
+    console, records, failed = Terminal(stderr=True), list[Record](), list[str]()
+    for each in track(corpus.requests, "requests", console=console):
+        words, scene = words_of(each.text), corpus.scenes[each.table]
+        own = np.exp(reader.own.read(words, scene, Context()).log_likelihood)
+        try:
+            records.append(Record(reader.asked(words, scene, Context()).chances, own, each.target))
+        except EndpointError as error:
+            failed.append(f"{reader.model} {error}")
+    if failed:
+        console.print(escape(f"{len(failed)} of {counted(len(corpus.requests), 'request')} not read: {failed[-1]}"))
+    if not records:
+        raise StudyError(f"found no request that {reader.model} read, expected one or more", field="reader")
+    found = fitted(records)
+    write_calibration(out, found, count=len(records), source=source)
+    for name, calibration in (("as it is", Calibration()), ("calibrated", found), ("ours", OURS)):
+        Terminal().print(f"log loss {name}: {log_loss(records, calibration):.3f} nats")
 
 
 def _as_json(heard: Heard, scene: Scene, chances: Vector) -> dict[str, Any]:
@@ -82,6 +113,7 @@ def _as_json(heard: Heard, scene: Scene, chances: Vector) -> dict[str, Any]:
         "readings": [{"meaning": str(each.meaning), "chance": each.chance} for each in heard.readings],
         "unknown": list(heard.unknown),
         "lost": heard.lost,
+        "note": heard.note,
         "items": {item.id: float(chance) for item, chance in zip(scene.items, chances, strict=True)},
     }
 

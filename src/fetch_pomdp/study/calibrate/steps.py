@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from fetch_pomdp.core.action import Action, Pick, Wait
 from fetch_pomdp.core.events import Event, Observed
 from fetch_pomdp.core.generative import asked_after
-from fetch_pomdp.core.language.meaning import Meaning
 from fetch_pomdp.core.language.unigram import split
+from fetch_pomdp.core.language.words import Meaning
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene

@@ -100,8 +100,10 @@ def _join(left: Cell, right: Cell, cell: Cell, grammar: Grammar) -> None:
         rules = grammar.binary.get(category)
         if rules is None:
             continue
-        for other in rules.keys() & right.keys():
-            for rule in rules[other]:
+        for other, found in rules.items():
+            if other not in right:
+                continue
+            for rule in found:
                 _add(cell, rule.parent, _pairs(rule, firsts, right[other]))
 
 

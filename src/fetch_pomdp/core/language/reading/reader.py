@@ -140,7 +140,7 @@ class TableReader:
     """
 
     def __init__(self, language: str = "english", weights: Weights | None = None) -> None:
-        self.grammar = grammar(language)
+        self.language, self.grammar = language, grammar(language)
         self.weights = Weights.of(shipped()) if weights is None else weights
         self._prior = view_prior(self.weights)
         self._places: dict[int, _Place] = {}
