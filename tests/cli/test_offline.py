@@ -124,7 +124,7 @@ BAD_EVENTS: dict[str, tuple[int, list[object]]] = {
     "no items": (1, [{"scene": {"head": [0, 0, 1], "items": []}}]),
     "unknown target": (1, [{"scene": "ambiguous", "target": "cup"}]),
     "unknown planner": (1, [{"scene": "ambiguous", "planner": "best"}]),
-    "future version": (1, [{"scene": "ambiguous", "version": 4}]),
+    "future version": (1, [{"scene": "ambiguous", "version": 5}]),
     "unknown action": (2, [{"scene": "ambiguous"}, {"action": "grab"}]),
     "unknown item": (2, [{"scene": "ambiguous"}, {"action": "pick", "item": "cup"}]),
     "no item": (2, [{"scene": "ambiguous"}, {"action": "point"}]),

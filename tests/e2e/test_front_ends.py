@@ -31,6 +31,7 @@ from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Acted
 from fetch_pomdp.core.interaction import OBJECTED, interact
 from fetch_pomdp.core.language.names import named
+from fetch_pomdp.core.language.reading.catalogue import DEFAULT, own_reader
 from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.files.events import event_to_json
@@ -92,7 +93,7 @@ class Mind:
 
 @pytest.mark.parametrize("planner", ASKING)
 def test_at_the_terminal(planner: str) -> None:
-    agent, mind = Agent(named(live_scene("ambiguous")), planner_named(planner)), Mind()
+    agent, mind = Agent(named(live_scene("ambiguous")), planner_named(planner), reader=own_reader(DEFAULT)), Mind()
     said = [""]
 
     def line() -> str:
@@ -117,7 +118,7 @@ def test_on_a_recording(planner: str, tmp_path: Path) -> None:
     mind.next("")
     while True:
         write(path, talk)
-        agent = Agent(named(live_scene("ambiguous")), planner_named(planner))
+        agent = Agent(named(live_scene("ambiguous")), planner_named(planner), reader=own_reader(DEFAULT))
         said: list[str] = []
         ears = SphinxRecognizer(open_wav(path), listened_for(agent.scene))
         lines: list[Line] = []

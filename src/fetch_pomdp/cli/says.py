@@ -12,13 +12,14 @@ from rich.markup import escape
 from rich.progress import track
 from rich.table import Table
 
-from fetch_pomdp.adapters.reading.choice import DEFAULT, reader_named
+from fetch_pomdp.adapters.reading.choice import reader_named
 from fetch_pomdp.adapters.reading.endpoint import EndpointReader
 from fetch_pomdp.cli.options import Json, ReaderName, SceneName, as_json, counted
 from fetch_pomdp.cli.show import MOST_BARS
 from fetch_pomdp.cli.terminal import Terminal
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.language.reading.calibration import Calibration
+from fetch_pomdp.core.language.reading.catalogue import DEFAULT
 from fetch_pomdp.core.language.reading.reader import Context, Heard, Reader, TableReader
 from fetch_pomdp.core.language.reading.telling import told
 from fetch_pomdp.core.language.reading.tokens import words_of

@@ -19,7 +19,7 @@ from fetch_pomdp.core.language.names import with_names
 from fetch_pomdp.core.language.reading.reader import Context, Reader
 from fetch_pomdp.core.language.reading.tokens import STOP, words_of
 from fetch_pomdp.core.language.unigram import Utterance, base_log_likelihood
-from fetch_pomdp.core.language.words import COURTESY, STAND_INS, Meaning
+from fetch_pomdp.core.language.words import COURTESY, RESPONSES, Meaning
 from fetch_pomdp.core.observation import Said
 from fetch_pomdp.core.problem import Problem
 
@@ -62,8 +62,8 @@ class Moment:
 
 def said_by(reader: Reader, words: tuple[str, ...], lexicon: Lexicon, moment: Moment, problem: Problem) -> Said:
     """Return what an utterance says as a reader reads it. words: lower case, as `AsHeard.words` gives them."""
-    answer, content = divided(words, lexicon, moment.after, asked=moment.asked is not None)
-    response = (STAND_INS[answer],) if answer in {Meaning.YES, Meaning.NO} else ()
+    said, content = divided(words, lexicon, moment.after, asked=moment.asked is not None)
+    answer, response = said.meaning, tuple(word for word in said.words if word in RESPONSES)
     if not any(word != STOP for word in content):
         return Said(Utterance((), response, (), answer), base_log_likelihood((), problem))
     heard = reader.read(content, problem.scene, moment.context.after_question(moment.asked))
@@ -80,8 +80,8 @@ def _spoken(words: Sequence[str]) -> tuple[str, ...]:
 
 def divided(
     words: tuple[str, ...], answers: Lexicon, after: After, *, asked: bool = False
-) -> tuple[Meaning | None, tuple[str, ...]]:
-    """Return the answer in what was said, and the words beside it that describe an item.
+) -> tuple[Reading, tuple[str, ...]]:
+    """Return the answers in what was said, and the words beside them that describe an item.
 
     asked: whether there was a question, be it answered. Where none is open, words are an answer only if nothing else is
     said, or if they end the request.
@@ -93,11 +93,11 @@ def divided(
     }
     said = tuple(word for index, word in enumerate(spoken) if index in found - kept)
     if not said:
-        return None, words
-    meaning = answers.read(said, after).meaning
+        return Reading(()), words
+    answer = answers.read(said, after)
     rest = [word for index, word in enumerate(spoken) if index not in found - kept and word not in AROUND]
-    if after is After.NOTHING and meaning is not Meaning.CANCEL and (rest or not asked):
-        return None, words
+    if after is After.NOTHING and answer.meaning is not Meaning.CANCEL and (rest or not asked):
+        return Reading(()), words
     places = [place for place, word in enumerate(words) if word != STOP]
     gone = {places[index] for index in found - kept}
-    return meaning, tuple(word for place, word in enumerate(words) if place not in gone)
+    return answer, tuple(word for place, word in enumerate(words) if place not in gone)
