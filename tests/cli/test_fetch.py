@@ -51,9 +51,9 @@ def test_the_demo_asks_about_one_marker_and_hands_over_the_other(
 
 
 def test_a_person_at_the_keyboard(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    fetch(monkeypatch, "the left green marker @marker-1\n@cup\nyes\n", "ambiguous")
+    fetch(monkeypatch, "the green marker @marker-1\n@cup\nyes\n", "ambiguous")
     out = capsys.readouterr().out
-    assert "I understood: left, green, marker" in out
+    assert "I understood: green, marker" in out
     assert "found 'cup', expected one of bowl-1" in out
     assert "hands over marker-1" in out
 

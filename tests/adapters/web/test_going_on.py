@@ -48,7 +48,7 @@ def test_a_second_request_begins_anew(house: House) -> None:
     page.send({"type": "typed", "text": "now hand me the silver spoon"})
     assert page.next("observed")["anew"]
     belief = page.next("belief", provisional=False)["belief"]
-    assert belief[first] == pytest.approx(belief["bowl-1"]), "of the first request nothing is left"
+    assert belief[first] == pytest.approx(belief["bowl-1"], rel=0.1), "of the first request nothing is left"
     assert page.next("action", action="pick", outcome="done")["item"].startswith("spoon")
 
 
@@ -107,9 +107,9 @@ def test_items_are_called_by_their_labels(house: House) -> None:
     table = page.next("welcome")["scene"]["items"]
     assert table[4] == {**table[4], "id": "spoon-1", "vocabulary": ["spoon", "silver", "metal", "utensil"]}
     page.send({"type": "typed", "text": "spoon 1"})
-    assert page.next("observed")["unknown"] == []
-    belief = page.next("belief", provisional=False)["belief"]
-    assert belief["spoon-1"] == pytest.approx(26**2 / (26**2 + 26 + 4))
+    observed = page.next("observed")
+    assert (observed["unknown"], observed["reading"]) == ([], {"meaning": "spoon, spoon-1", "whose": False})
+    assert page.next("belief", provisional=False)["belief"]["spoon-1"] > 0.9
 
 
 def test_every_sentence_of_the_robot_has_a_sound_and_a_translation(house: House) -> None:
