@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from fetch_pomdp.core.language.reading.grammar import grammar
 from fetch_pomdp.core.language.reading.tokens import MOST_WORDS
+from hostile import strike
 from tests.core.language.reading.tables import LINE, ROOM, heard
 
 KNOWN = sorted({word for phrase in grammar("english").lexicon for word in phrase} | {"red", "mug", "bowl", "."})
@@ -38,3 +39,9 @@ def test_long_and_repeated_words() -> None:
         finite(text)
     assert heard("red " * 1000).unknown == ()
     assert MOST_WORDS < 1000
+
+
+def test_a_part_of_the_benchmark_of_hostile_strings() -> None:
+    found = strike(1_000, seed=1)
+    assert found.failed == []
+    assert sum(found.counts.values()) == 1_000

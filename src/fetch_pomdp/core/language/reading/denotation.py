@@ -43,6 +43,7 @@ from fetch_pomdp.core.language.reading.table import LISTENER, SPEAKER, VIEWS, Ta
 from fetch_pomdp.core.language.reading.weights import Weights
 
 UNLIKELY = 0.1  # degree, of the best landmark's, below which an item is no end of what is between
+ENDS = 24  # items that are looked at as an end of what is between
 DEEPEST = 6  # landmarks of landmarks
 LIKELIEST = 4  # groups that are looked at
 SWAPPED, WIDE, DEEP = (np.array(column) for column in zip(*VIEWS, strict=True))
@@ -421,9 +422,10 @@ class Denotation:
 
 
 def _likely(landmarks: Array) -> Integers:
-    """Return the indices of the items that may be a landmark; of all if none is."""
-    found = np.flatnonzero(landmarks.max(axis=tuple(range(landmarks.ndim - 1))) > UNLIKELY)
-    return found if len(found) else np.arange(landmarks.shape[-1])
+    """Return the indices of the items that may be a landmark, at most ENDS, the likeliest; of all if none is."""
+    degree = landmarks.max(axis=tuple(range(landmarks.ndim - 1)))
+    found = np.flatnonzero(degree > UNLIKELY) if (degree > UNLIKELY).any() else np.arange(landmarks.shape[-1])
+    return found if len(found) <= ENDS else np.sort(found[np.argsort(-degree[found], kind="stable")[:ENDS]])
 
 
 def ranks(part: Form) -> bool:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import dataclasses
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -26,7 +27,7 @@ from fetch_pomdp.core.language.reading.tokens import Vocabulary, clauses
 from fetch_pomdp.core.language.reading.weights import Weights, shipped
 from fetch_pomdp.core.scene import Scene
 
-SCENES = 8  # that are kept
+SCENES = 16  # that are kept
 MEANINGS = 2_000  # of a scene that are kept
 LEAST = 1e-6  # chance of a view
 
@@ -116,17 +117,22 @@ class _Place:
 
 
 class TableReader:
-    """Reads with a grammar, with weights learnt from what people said. Keeps what it computed of the last scenes."""
+    """Reads with a grammar, with weights learnt from what people said. Keeps what it computed of the last scenes.
+
+    Safe to use from any thread.
+    """
 
     def __init__(self, language: str = "english", weights: Weights | None = None) -> None:
         self.language, self.grammar = language, grammar(language)
         self.weights = Weights.of(shipped()) if weights is None else weights
         self._prior = view_prior(self.weights)
         self._places: dict[int, _Place] = {}
+        self._lock = threading.Lock()
 
     def read(self, words: Sequence[str], scene: Scene, context: Context) -> Heard:
         """Read what was said about a scene."""
-        place = self._place(scene)
+        with self._lock:
+            place = self._place(scene)
         parsed = parse(words, place.table.vocabulary, self.grammar, context.before)
         views = self._prior if context.views is None else np.array(context.views)
         result = understood(
