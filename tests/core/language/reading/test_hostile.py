@@ -35,7 +35,16 @@ def test_any_order_of_words_that_it_knows(words: list[str]) -> None:
 
 
 def test_long_and_repeated_words() -> None:
-    for text in ("left " * 500, "not " * 200 + "red", "the mug next to " * 60, "a" * 100_000, "it it it it", ". . ."):
+    growing = "i want zorgon behind " * 30  # "behind" it, which is all that was said before, and so twice as much
+    for text in (
+        growing,
+        "left " * 500,
+        "not " * 200 + "red",
+        "the mug next to " * 60,
+        "a" * 100_000,
+        "it it it it",
+        ". . .",
+    ):
         finite(text)
     assert heard("red " * 1000).unknown == ()
     assert MOST_WORDS < 1000

@@ -40,6 +40,7 @@ from fetch_pomdp.core.language.reading.form import (
 
 READINGS = 5  # of an utterance
 MARGIN = 2.0  # cost above the best reading's, beyond which one no longer counts
+LARGEST = 40  # forms of what "it" or "the same" may stand for
 SLACK = 1e-9  # cost: sums in another order differ by less
 IGNORED = 0.7  # cost of a description that is left out
 
@@ -263,10 +264,15 @@ def _means_group(said: Description) -> bool:
 
 
 def _antecedent(anaphor: Anaphor, before: Sequence[Description]) -> Description:
-    for each in reversed(before):
-        if each.plural or not anaphor.plural:
-            return each
-    return before[-1] if before else Description((anaphor,))
+    if not before:
+        return Description((anaphor,))
+    found = next((each for each in reversed(before) if each.plural or not anaphor.plural), before[-1])
+    return found if _brief(found) else Description()
+
+
+def _brief(said: Description) -> bool:
+    """Return whether a meaning is short enough to be spoken of again: what has "it" in it grows with each time."""
+    return said.extent[0] <= LARGEST
 
 
 def _grounded(meaning: Description, before: Before) -> Description:
@@ -274,7 +280,7 @@ def _grounded(meaning: Description, before: Before) -> Description:
     parts: list[Form] = []
     for part in meaning.parts:
         if isinstance(part, Same):
-            parts += () if before.meaning is None else before.meaning.parts
+            parts += () if before.meaning is None or not _brief(before.meaning) else before.meaning.parts
         elif isinstance(part, Anaphor):
             parts += () if before.asked is None or not part.other else (Not(Known(before.asked)),)
         else:

@@ -239,13 +239,23 @@ class Description:
     """Items of which all parts hold."""
 
     parts: tuple[Form, ...] = ()
-    # Computed once, when it is first asked for: some meanings are looked up often, most never.
+    # Computed once, when they are first asked for: some meanings are looked up often, most never.
     _hash: int | None = field(init=False, repr=False, compare=False, default=None)
+    _extent: tuple[int, int] | None = field(init=False, repr=False, compare=False, default=None)
 
     def __hash__(self) -> int:
         if self._hash is None:
             object.__setattr__(self, "_hash", hash(self.parts))
         return self._hash or 0
+
+    @property
+    def extent(self) -> tuple[int, int]:
+        """Of how many forms it is made, and how many descriptions and negations are at most within each other."""
+        if self._extent is None:
+            inside = [extent(part) for part in self.parts]
+            found = (1 + sum(size for size, _ in inside), 1 + max((deep for _, deep in inside), default=0))
+            object.__setattr__(self, "_extent", found)
+        return self._extent or (1, 1)
 
     def __str__(self) -> str:
         return ", ".join(map(str, self.parts)) or "something"
@@ -284,6 +294,16 @@ def inner(form: Form) -> Iterator[Form]:
         for each in value if isinstance(value, tuple) else (value,):
             if type(each) in _FORMS:
                 yield each
+
+
+def extent(form: Form) -> tuple[int, int]:
+    """Return how many forms a form is made of, and how many descriptions and negations are within each other."""
+    if isinstance(form, Description):
+        return form.extent
+    size, deep = 1, 0
+    for more, deeper in map(extent, inner(form)):
+        size, deep = size + more, max(deep, deeper)
+    return size, deep + isinstance(form, Not)
 
 
 def rebuilt(form: Made, change: Callable[[Any], Any]) -> Made:
