@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from fetch_pomdp.core.language.reading.grammar import grammar
 from fetch_pomdp.core.language.reading.tokens import MOST_WORDS
+from hostile import strike
 from tests.core.language.reading.tables import LINE, ROOM, heard
 
 KNOWN = sorted({word for phrase in grammar("english").lexicon for word in phrase} | {"red", "mug", "bowl", "."})
@@ -34,7 +35,22 @@ def test_any_order_of_words_that_it_knows(words: list[str]) -> None:
 
 
 def test_long_and_repeated_words() -> None:
-    for text in ("left " * 500, "not " * 200 + "red", "the mug next to " * 60, "a" * 100_000, "it it it it", ". . ."):
+    growing = "i want zorgon behind " * 30  # "behind" it, which is all that was said before, and so twice as much
+    for text in (
+        growing,
+        "left " * 500,
+        "not " * 200 + "red",
+        "the mug next to " * 60,
+        "a" * 100_000,
+        "it it it it",
+        ". . .",
+    ):
         finite(text)
     assert heard("red " * 1000).unknown == ()
     assert MOST_WORDS < 1000
+
+
+def test_a_part_of_the_benchmark_of_hostile_strings() -> None:
+    found = strike(1_000, seed=1)
+    assert found.failed == []
+    assert sum(found.counts.values()) == 1_000

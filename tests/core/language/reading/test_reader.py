@@ -7,11 +7,14 @@ import dataclasses
 import numpy as np
 import pytest
 
+from fetch_pomdp.core.language.reading.denotation import Denotation
 from fetch_pomdp.core.language.reading.discourse import Before
+from fetch_pomdp.core.language.reading.form import Description, Relation, Select
 from fetch_pomdp.core.language.reading.reader import Context, TableReader
+from fetch_pomdp.core.language.reading.table import Table
 from fetch_pomdp.core.language.reading.tokens import words_of
 from fetch_pomdp.core.scene import Scene
-from tests.core.language.reading.tables import LINE, ROOM, heard, meant, scene
+from tests.core.language.reading.tables import LINE, READER, ROOM, heard, meant, scene
 
 RED_LEFT, GREEN, RED_RIGHT, BOWL = range(4)
 
@@ -164,3 +167,13 @@ def test_reading_twice_is_the_same() -> None:
     for text in ("second from the left", "the mug by itself"):
         assert heard(text).log_likelihood.tolist() == heard(text).log_likelihood.tolist()
         assert again.read(words_of(text), LINE, Context()).log_likelihood == pytest.approx(heard(text).log_likelihood)
+
+
+def test_the_degrees_of_a_meaning_do_not_depend_on_what_was_asked_before() -> None:
+    nested = [Description((Select("bowl"),))]
+    for _ in range(9):
+        nested.append(Description((Select("mug"), Relation("next to", nested[-1]))))
+    fresh, used = (Denotation(Table.of(LINE), READER.grammar, READER.weights) for _ in range(2))
+    used.of(nested[-1])
+    for said in nested:
+        np.testing.assert_array_equal(used.of(said), fresh.of(said))

@@ -10,8 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent.parent.parent.parent
 PROGRAM = """
 from tests.core.language.reading.tables import ROOM, heard
-TEXTS = ("take the bowl in front of them to their top left corner", "the plate behind them to your left of the two")
-for text in TEXTS:
+for text in ("take the bowl in front of them to their top left corner", "the plate behind them to your left"):
     print([(str(each.meaning), each.chance.hex()) for each in heard(text, ROOM).readings])
 """
 

@@ -36,6 +36,7 @@ from fetch_pomdp.core.language.reading.form import (
     Superlative,
     Union,
     Within,
+    extent,
 )
 from fetch_pomdp.core.language.reading.grammar import Grammar
 from fetch_pomdp.core.language.reading.groups import Groups, groups
@@ -43,6 +44,7 @@ from fetch_pomdp.core.language.reading.table import LISTENER, SPEAKER, VIEWS, Ta
 from fetch_pomdp.core.language.reading.weights import Weights
 
 UNLIKELY = 0.1  # degree, of the best landmark's, below which an item is no end of what is between
+ENDS = 24  # items that are looked at as an end of what is between
 DEEPEST = 6  # landmarks of landmarks
 LIKELIEST = 4  # groups that are looked at
 SWAPPED, WIDE, DEEP = (np.array(column) for column in zip(*VIEWS, strict=True))
@@ -65,21 +67,23 @@ class Denotation:
     def __init__(self, table: Table, grammar: Grammar, weights: Weights) -> None:
         self.table, self.grammar, self.w = table, grammar, weights.values
         self._kept: dict[Any, Array] = {}
-        self._grouped: dict[Description, tuple[Array, Array]] = {}
+        self._grouped: dict[Any, tuple[Array, Array]] = {}
+        self.numbers = 0  # that are kept
         self._people: dict[Person, Array] = {
             whom: np.array([person_in(view, whom) for view in VIEWS]) for whom in Person
         }
 
-    @property
-    def kept(self) -> int:
-        """How many degrees are kept."""
-        return len(self._kept)
-
     def of(self, said: Description, depth: int = 0) -> Array:
         """Return how far each item is what is said."""
-        if said not in self._kept:
-            self._kept[said] = self._of(said, depth)
-        return self._kept[said]
+        return self._once(_key(said, depth), lambda: self._of(said, depth))
+
+    def _once(self, key: Any, make: Callable[[], Array]) -> Array:
+        """Return what is kept under a key, made if it is not yet."""
+        found = self._kept.get(key)
+        if found is None:
+            found = self._kept[key] = make()
+            self.numbers += found.size
+        return found
 
     def _of(self, said: Description, depth: int) -> Array:
         if depth > DEEPEST:
@@ -121,9 +125,10 @@ class Denotation:
 
     def groups(self, said: Description, depth: int) -> tuple[Array, Array]:
         """Return the likeliest groups that a plural description may mean: (g, n) members and (..., g) chances."""
-        found = self._grouped.get(said)
+        key = _key(said, depth)
+        found = self._grouped.get(key)
         if found is None:
-            found = self._grouped[said] = self._groups(said, depth)
+            found = self._grouped[key] = self._groups(said, depth)
         return found
 
     def _groups(self, said: Description, depth: int) -> tuple[Array, Array]:
@@ -169,9 +174,7 @@ class Denotation:
         return found.members[best], chances * quality
 
     def _part(self, part: Form, depth: int) -> Array:
-        if part not in self._kept:
-            self._kept[part] = self._restricting(part, depth)
-        return self._kept[part]
+        return self._once(_key(part, depth), lambda: self._restricting(part, depth))
 
     def _restricting(self, part: Form, depth: int) -> Array:
         w = self.w
@@ -253,10 +256,7 @@ class Denotation:
 
     def _ordered(self, key: Any, values: Callable[[], Array]) -> Array:
         """Return the soft order of the items by values, (..., n, n); kept under a key."""
-        found = self._kept.get(("order", key))
-        if found is None:
-            found = self._kept["order", key] = degrees.precedes(values(), self.w.rank_blur)
-        return found
+        return self._once(("order", key), lambda: degrees.precedes(values(), self.w.rank_blur))
 
     def _order(self, side: str, viewer: Person | None) -> Array:
         """Return the order of the items from the farthest on a side."""
@@ -373,10 +373,7 @@ class Denotation:
         return degrees.related(where, self._holds(part))
 
     def _holds(self, part: Relation) -> Array:
-        key = ("relation", part.name, part.viewer, part.direct)
-        if key not in self._kept:
-            self._kept[key] = self._relations(part)
-        return self._kept[key]
+        return self._once(("relation", part.name, part.viewer, part.direct), lambda: self._relations(part))
 
     def _relations(self, part: Relation) -> Array:
         """Return how far a relation holds of each item and each landmark, (variants, views, n, n)."""
@@ -420,10 +417,16 @@ class Denotation:
         return (holds * one[..., None, some, None] * other[..., None, None, others]).max(axis=(-1, -2))
 
 
+def _key(form: Form, depth: int) -> Any:
+    """Return what degrees are kept under: with their depth, where what is deepest in them is left out because of it."""
+    return form if depth + extent(form)[1] <= DEEPEST else (form, depth)
+
+
 def _likely(landmarks: Array) -> Integers:
-    """Return the indices of the items that may be a landmark; of all if none is."""
-    found = np.flatnonzero(landmarks.max(axis=tuple(range(landmarks.ndim - 1))) > UNLIKELY)
-    return found if len(found) else np.arange(landmarks.shape[-1])
+    """Return the indices of the items that may be a landmark, at most ENDS, the likeliest; of all if none is."""
+    degree = landmarks.max(axis=tuple(range(landmarks.ndim - 1)))
+    found = np.flatnonzero(degree > UNLIKELY) if (degree > UNLIKELY).any() else np.arange(landmarks.shape[-1])
+    return found if len(found) <= ENDS else np.sort(found[np.argsort(-degree[found], kind="stable")[:ENDS]])
 
 
 def ranks(part: Form) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,6 +40,8 @@ from fetch_pomdp.core.language.reading.form import (
 
 READINGS = 5  # of an utterance
 MARGIN = 2.0  # cost above the best reading's, beyond which one no longer counts
+LARGEST = 40  # forms of what "it" or "the same" may stand for
+SLACK = 1e-9  # cost: sums in another order differ by less
 IGNORED = 0.7  # cost of a description that is left out
 
 
@@ -73,14 +75,25 @@ def candidates(
     """Return the readings of an utterance, best first. kinds, found: how each clause begins, and its covers."""
     result: dict[Description, Candidate] = {}
     for covers in itertools.islice(_cheapest(found), 3 * READINGS):
+        least = sum(cover.cost for cover in covers)  # from here on all cost this and more
+        if _enough(result.values(), least):
+            break
         meaning, ignored = _assembled(kinds, [cover.meanings for cover in covers])
         meaning = _grounded(meaning, before)
-        cost = sum(cover.cost for cover in covers) + ignored
+        cost = least + ignored
         if meaning not in result or cost < result[meaning].cost:
             skipped = sum(cover.skipped for cover in covers)
             result[meaning] = Candidate(meaning, cost, skipped, nested(meaning))
     ranked = sorted(result.values(), key=lambda each: each.cost)[:READINGS]
     return [each for each in ranked if each.cost <= ranked[0].cost + MARGIN]
+
+
+def _enough(found: Collection[Candidate], least: float) -> bool:
+    """Return whether no reading that costs `least` or more can be among the best beside those that were found."""
+    if not found:
+        return False
+    costs = sorted(each.cost for each in found)
+    return least > costs[0] + MARGIN + SLACK or (len(costs) >= READINGS and least > costs[READINGS - 1] + SLACK)
 
 
 def _cheapest(found: Sequence[Sequence[Cover]]) -> Iterator[tuple[Cover, ...]]:
@@ -251,10 +264,15 @@ def _means_group(said: Description) -> bool:
 
 
 def _antecedent(anaphor: Anaphor, before: Sequence[Description]) -> Description:
-    for each in reversed(before):
-        if each.plural or not anaphor.plural:
-            return each
-    return before[-1] if before else Description((anaphor,))
+    if not before:
+        return Description((anaphor,))
+    found = next((each for each in reversed(before) if each.plural or not anaphor.plural), before[-1])
+    return found if _brief(found) else Description()
+
+
+def _brief(said: Description) -> bool:
+    """Return whether a meaning is short enough to be spoken of again: what has "it" in it grows with each time."""
+    return said.extent[0] <= LARGEST
 
 
 def _grounded(meaning: Description, before: Before) -> Description:
@@ -262,7 +280,7 @@ def _grounded(meaning: Description, before: Before) -> Description:
     parts: list[Form] = []
     for part in meaning.parts:
         if isinstance(part, Same):
-            parts += () if before.meaning is None else before.meaning.parts
+            parts += () if before.meaning is None or not _brief(before.meaning) else before.meaning.parts
         elif isinstance(part, Anaphor):
             parts += () if before.asked is None or not part.other else (Not(Known(before.asked)),)
         else:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar, get_args, get_type_hints
 
 
 class Person(Enum):
@@ -239,13 +239,23 @@ class Description:
     """Items of which all parts hold."""
 
     parts: tuple[Form, ...] = ()
-    _hash: int = field(init=False, repr=False, compare=False, default=0)  # computed once: meanings are looked up often
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "_hash", hash(self.parts))
+    # Computed once, when they are first asked for: some meanings are looked up often, most never.
+    _hash: int | None = field(init=False, repr=False, compare=False, default=None)
+    _extent: tuple[int, int] | None = field(init=False, repr=False, compare=False, default=None)
 
     def __hash__(self) -> int:
-        return self._hash
+        if self._hash is None:
+            object.__setattr__(self, "_hash", hash(self.parts))
+        return self._hash or 0
+
+    @property
+    def extent(self) -> tuple[int, int]:
+        """Of how many forms it is made, and how many descriptions and negations are at most within each other."""
+        if self._extent is None:
+            inside = [extent(part) for part in self.parts]
+            found = (1 + sum(size for size, _ in inside), 1 + max((deep for _, deep in inside), default=0))
+            object.__setattr__(self, "_extent", found)
+        return self._extent or (1, 1)
 
     def __str__(self) -> str:
         return ", ".join(map(str, self.parts)) or "something"
@@ -266,33 +276,48 @@ Form = (
 )  # fmt: skip
 
 Made = TypeVar("Made", bound=Form)
-_FORMS = get_args(Form)
+_FORMS = frozenset(get_args(Form))
+
+
+def _may_hold(hint: Any) -> bool:
+    return hint in _FORMS or any(map(_may_hold, get_args(hint)))
+
+
+# Of each kind of form the fields that may hold other forms.
+_NAMES = {kind: tuple(name for name, hint in get_type_hints(kind).items() if _may_hold(hint)) for kind in _FORMS}
 
 
 def inner(form: Form) -> Iterator[Form]:
     """Yield the forms that a form is directly made of."""
-    for name in _names(form):
+    for name in _NAMES[type(form)]:
         value = getattr(form, name)
         for each in value if isinstance(value, tuple) else (value,):
-            if isinstance(each, _FORMS):
+            if type(each) in _FORMS:
                 yield each
 
 
+def extent(form: Form) -> tuple[int, int]:
+    """Return how many forms a form is made of, and how many descriptions and negations are within each other."""
+    if isinstance(form, Description):
+        return form.extent
+    size, deep = 1, 0
+    for more, deeper in map(extent, inner(form)):
+        size, deep = size + more, max(deep, deeper)
+    return size, deep + isinstance(form, Not)
+
+
 def rebuilt(form: Made, change: Callable[[Any], Any]) -> Made:
-    """Return a form with each form that it is directly made of changed."""
+    """Return a form with each form that it is directly made of changed; itself where none changes."""
     new: dict[str, Any] = {}
-    for name in _names(form):
+    for name in _NAMES[type(form)]:
         value = getattr(form, name)
-        if isinstance(value, _FORMS):
-            new[name] = change(value)
-        elif isinstance(value, tuple) and any(isinstance(each, _FORMS) for each in value):
-            new[name] = tuple(change(each) for each in value)
+        if isinstance(value, tuple):
+            parts = tuple(map(change, value))
+            if any(part is not old for part, old in zip(parts, value, strict=True)):
+                new[name] = parts
+        elif type(value) in _FORMS and (part := change(value)) is not value:
+            new[name] = part
     return replace(form, **new) if new else form
-
-
-def _names(form: Form) -> list[str]:
-    """Return the names of a form's fields that are given."""
-    return [name for name in form.__dataclass_fields__ if name != "_hash"]
 
 
 def _inside(form: Form | Person) -> str:

@@ -7,7 +7,7 @@ case. Rules of more than two parts are cut into pairs, so that the chart joins t
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -52,9 +52,29 @@ class Grammar:
     unary: Mapping[str, tuple[Rule, ...]]
     binary: Mapping[str, Mapping[str, tuple[Rule, ...]]]
     known: frozenset[str] = field(init=False)  # every word of the lexicon's phrases, and the noise
+    spellings: tuple[str, ...] = field(init=False)  # the words that others may be misspellings of
+    longest: Mapping[str, int] = field(init=False)  # by its first word, of how many the longest phrase is
+    openers: frozenset[str] = field(init=False)  # the first words of phrases that stand for a word of a table
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "known", self.noise | {word for phrase in self.lexicon for word in phrase})
+        known = self.noise | {word for phrase in self.lexicon for word in phrase}
+        longest: dict[str, int] = {}
+        for phrase in self.lexicon:
+            longest[phrase[0]] = max(longest.get(phrase[0], 0), len(phrase))
+        for name, value in (
+            ("known", known),
+            ("spellings", tuple(sorted(known - self.noise))),
+            ("longest", longest),
+            ("openers", frozenset(name.split()[0] for name in self.synonyms if " " in name)),
+        ):
+            object.__setattr__(self, name, value)
+
+    def phrases(self, words: Sequence[str], place: int) -> Iterator[tuple[int, tuple[Leaf, ...]]]:
+        """Yield the length and the leaves of each phrase of the lexicon that begins there, the longest first."""
+        for size in range(min(self.longest.get(words[place], 0), len(words) - place), 0, -1):
+            leaves = self.lexicon.get(tuple(words[place : place + size]))
+            if leaves:
+                yield size, leaves
 
 
 @functools.cache

@@ -44,48 +44,49 @@ def groups(candidates: Mask, number: int | None, distances: Array) -> Groups:
 
 def _clusters(chosen: Integers, distances: Array) -> list[tuple[int, ...]]:
     found: dict[tuple[int, ...], None] = {}
+    among = distances[np.ix_(chosen, chosen)]
     for link in LINKS:
-        left = set(chosen.tolist())
-        while left:
-            grown, agenda = set[int](), [left.pop()]
-            while agenda:
-                item = agenda.pop()
-                grown.add(item)
-                near = {other for other in left if distances[item, other] <= link}
-                left -= near
-                agenda += near
-            if len(grown) > 1:
-                found[tuple(sorted(grown))] = None
+        linked = among <= link
+        left = np.ones(len(chosen), dtype=bool)
+        while left.any():
+            grown = linked[left.argmax()]
+            while (more := linked[grown].any(axis=0)).sum() > grown.sum():
+                grown = more
+            left &= ~grown
+            if grown.sum() > 1:
+                found[tuple(chosen[grown].tolist())] = None
     return list(found) or [tuple(chosen.tolist())]
 
 
 def _measured(sets: list[tuple[int, ...]], candidates: Mask, distances: Array) -> Groups:
     members = np.zeros((len(sets), len(candidates)))
     near, spread, apart = np.zeros((3, len(sets)))
-    for index, each in enumerate(sets):
-        inside = np.array(each)
-        members[index, inside] = 1.0
-        within = distances[np.ix_(inside, inside)]
-        if len(inside) > 1:
-            near[index] = _longest_link(within)
-            spread[index] = within.sum() / (len(inside) * (len(inside) - 1)) / np.sqrt(len(inside))
-        rest = candidates.copy()
-        rest[inside] = False
-        gap = distances[np.ix_(inside, np.flatnonzero(rest))].min() if rest.any() else np.inf
-        apart[index] = min(max(gap - near[index], 0.0), 2.0)
+    sizes = np.array(list(map(len, sets)))
+    for size in np.unique(sizes):
+        here = np.flatnonzero(sizes == size)
+        inside = np.array([sets[index] for index in here])  # (sets of the size, size)
+        members[here[:, None], inside] = 1.0
+        if size > 1:
+            within = distances[inside[:, :, None], inside[:, None, :]]
+            near[here] = _longest_links(within)
+            spread[here] = within.sum(axis=(1, 2)) / (size * (size - 1)) / np.sqrt(size)
+        others = candidates & (members[here] == 0.0)
+        gap = np.where(others, distances[inside].min(axis=1), np.inf).min(axis=1)
+        apart[here] = np.minimum(np.maximum(gap - near[here], 0.0), 2.0)
     return Groups(members, near, spread, apart)
 
 
-def _longest_link(distances: Array) -> float:
-    """Return the longest edge of the shortest tree that joins all (Prim's)."""
-    size = len(distances)
-    reach, joined = distances[0].copy(), np.zeros(size, dtype=bool)
-    joined[0] = True
-    longest = 0.0
+def _longest_links(distances: Array) -> Vector:
+    """Return the longest edge of the shortest tree that joins all of each set (Prim's), (sets,), of (sets, n, n)."""
+    every, size = np.arange(len(distances)), distances.shape[1]
+    reach = distances[:, 0].copy()
+    reach[:, 0] = np.inf
+    joined = np.zeros(reach.shape, dtype=bool)
+    joined[:, 0] = True
+    longest = np.zeros(len(distances))
     for _ in range(size - 1):
-        reach[joined] = np.inf
-        item = int(reach.argmin())
-        longest = max(longest, float(reach[item]))
-        joined[item] = True
-        reach = np.minimum(reach, distances[item])
+        item = reach.argmin(axis=1)
+        longest = np.maximum(longest, reach[every, item])
+        joined[every, item] = True
+        reach = np.where(joined, np.inf, np.minimum(reach, distances[every, item]))
     return longest

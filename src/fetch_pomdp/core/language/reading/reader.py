@@ -27,8 +27,8 @@ from fetch_pomdp.core.language.reading.tokens import Vocabulary, clauses
 from fetch_pomdp.core.language.reading.weights import Weights, shipped
 from fetch_pomdp.core.scene import Scene
 
-SCENES = 8  # that are kept
-MEANINGS = 2_000  # of a scene that are kept
+SCENES = 16  # that are kept
+NUMBERS = 6_000_000  # of a scene that are kept: 48 MB
 LEAST = 1e-6  # chance of a view
 
 
@@ -181,7 +181,7 @@ class TableReader:
             while len(self._places) >= SCENES:
                 del self._places[next(iter(self._places))]
             place = self._places[id(scene)] = _Place(scene, table, meaning, ease(meaning))
-        elif place.denotation.kept > MEANINGS:
+        elif place.denotation.numbers > NUMBERS:
             fresh = Denotation(place.table, self.grammar, self.weights)
             place = self._places[id(scene)] = dataclasses.replace(place, denotation=fresh)
         return place

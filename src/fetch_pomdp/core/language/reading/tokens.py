@@ -61,6 +61,14 @@ class Vocabulary:
     named: frozenset[str]
     general: frozenset[str]
     ids: Mapping[tuple[str, ...], str]
+    every: frozenset[str] = field(init=False)  # named and general
+    openers: frozenset[str] = field(init=False)  # the first words of names of several words
+
+    def __post_init__(self) -> None:
+        every = self.named | self.general
+        several = {name.split()[0] for name in every if " " in name.strip()}
+        object.__setattr__(self, "every", every)
+        object.__setattr__(self, "openers", frozenset(several | {words[0] for words in self.ids}))
 
     @classmethod
     def of(cls, vocabularies: Sequence[Iterable[str]], ids: Iterable[str] = ()) -> Vocabulary:
@@ -73,10 +81,9 @@ class Vocabulary:
 
     def has(self, word: str, grammar: Grammar) -> bool:
         """Return whether some of the items may be called so: as their word, or one that stands for it."""
-        mine = self.named | self.general
-        if word in mine or not mine.isdisjoint(grammar.synonyms.get(word, ())):
+        if word in self.every or not self.every.isdisjoint(grammar.synonyms.get(word, ())):
             return True
-        return word in grammar.colours and not mine.isdisjoint(grammar.colours)
+        return word in grammar.colours and not self.every.isdisjoint(grammar.colours)
 
 
 def clauses(words: Sequence[str], vocabulary: Vocabulary, grammar: Grammar) -> list[Clause]:
@@ -116,10 +123,8 @@ def _without_ignored(words: Sequence[str], grammar: Grammar) -> list[str]:
         size = next(
             (
                 size
-                for size in range(min(LONGEST, len(words) - place), 0, -1)
-                if any(
-                    leaf.category == "ignored" for leaf in grammar.lexicon.get(tuple(words[place : place + size]), ())
-                )
+                for size, leaves in grammar.phrases(words, place)
+                if any(leaf.category == "ignored" for leaf in leaves)
             ),
             0,
         )
@@ -132,13 +137,8 @@ def _break_at(words: Sequence[str], place: int, grammar: Grammar, vocabulary: Vo
     """Return how many words begin a clause there, and what kind of clause that is; "" where none begins."""
     if words[place] in vocabulary.named:
         return 1, ""
-    for size in range(min(LONGEST, len(words) - place), 0, -1):
-        leaves = grammar.lexicon.get(tuple(words[place : place + size]), ())
-        if leaves:
-            for leaf in leaves:
-                if leaf.category in BREAKS:
-                    return size, leaf.category
-            return size, ""
+    for size, leaves in grammar.phrases(words, place):
+        return size, next((leaf.category for leaf in leaves if leaf.category in BREAKS), "")
     return 1, ""
 
 
@@ -188,19 +188,21 @@ def _stops(end: int, here: Sequence[Sequence[_Leaf]], empty: Sequence[bool]) -> 
 
 
 def _leaves_at(words: Sequence[str], place: int, vocabulary: Vocabulary, grammar: Grammar) -> Iterable[_Leaf]:
-    for size in range(1, min(LONGEST, len(words) - place) + 1):
-        for leaf in grammar.lexicon.get(tuple(words[place : place + size]), ()):
+    word = words[place]
+    for size, leaves in reversed(tuple(grammar.phrases(words, place))):
+        for leaf in leaves:
             if (
                 leaf.category not in BREAKS
                 and leaf.category != "ignored"
-                and not (size == 1 and leaf.category == "n" and _owned(words[place], vocabulary))
+                and not (size == 1 and leaf.category == "n" and _owned(word, vocabulary))
             ):
                 yield place, place + size, leaf.category, leaf.value
-    word = words[place]
     if word in vocabulary.general and (word,) not in grammar.lexicon:
         yield place, place + 1, "n", word
     elif word not in vocabulary.general and vocabulary.has(word, grammar):
         yield place, place + 1, "w", word
+    if word not in vocabulary.openers and word not in grammar.openers:
+        return
     for size in range(2, min(LONGEST, len(words) - place) + 1):
         phrase = tuple(words[place : place + size])
         if phrase in vocabulary.ids:
@@ -215,7 +217,7 @@ def _owned(word: str, vocabulary: Vocabulary) -> bool:
 
 def _resolved(word: str, vocabulary: Vocabulary, grammar: Grammar) -> str:
     """Return the word that is meant: itself where it is known, else the known one that is spelt most like it."""
-    mine = vocabulary.named | vocabulary.general
+    mine = vocabulary.every
     if word in mine or word in grammar.known or vocabulary.has(word, grammar):
         return word
     for stem in uninflected(word, grammar):
@@ -223,7 +225,7 @@ def _resolved(word: str, vocabulary: Vocabulary, grammar: Grammar) -> str:
             return stem
     if word in grammar.synonyms or word in grammar.colours:
         return word  # a word that is known, and that no item may be called
-    return nearest(word, mine) or nearest(word, grammar.known - grammar.noise) or word
+    return nearest(word, sorted(mine)) or nearest(word, grammar.spellings) or word
 
 
 def uninflected(word: str, grammar: Grammar) -> Iterable[str]:
@@ -234,12 +236,15 @@ def uninflected(word: str, grammar: Grammar) -> Iterable[str]:
 
 
 def nearest(word: str, among: Iterable[str]) -> str | None:
-    """Return the word that differs least in its letters, by one of four to six or two of more; None if none does."""
+    """Return the word that differs least in its letters, by one of four to six or two of more; None if none does.
+
+    Of several the first. Each letter that one has and the other has not is a difference.
+    """
     most = 0 if len(word) < 4 else 1 if len(word) < 7 else 2
     best, found, letters = most + 1, None, set(word)
-    for other in sorted(among) if most else ():
-        # Each letter that the other has not is a difference.
-        if abs(len(other) - len(word)) <= most and len(other) >= 4 and len(letters.difference(other)) <= most:
+    low, high = max(len(word) - most, 4), len(word) + most
+    for other in among if most else ():
+        if low <= len(other) <= high and len(letters.difference(other)) <= most >= len(set(other) - letters):
             distance = _differing(word, other, best)
             if distance < best:
                 best, found = distance, other
