@@ -47,6 +47,7 @@ class Grammar:
     noise: frozenset[str]
     endings: tuple[tuple[str, str], ...]  # of inflected words, and what stands in their place in a dictionary
     lexicon: Mapping[tuple[str, ...], tuple[Leaf, ...]]
+    phrases: Mapping[Leaf, tuple[tuple[str, ...], ...]]  # of each leaf, the plainest first
     synonyms: Mapping[str, tuple[str, ...]]  # of a word, those that a table may have in its place
     colours: Mapping[str, tuple[float, ...]]
     unary: Mapping[str, tuple[Rule, ...]]
@@ -82,18 +83,21 @@ def grammar(language: str) -> Grammar:
     """Return a language's grammar. Raises InputError for a file that is none."""
     data = read_toml(Path(__file__).with_name(f"{language}.toml"), InputError).data
     lexicon: dict[tuple[str, ...], list[Leaf]] = {}
+    phrases_of: dict[Leaf, list[tuple[str, ...]]] = {}
     for category, values in data["lexicon"].items():
         for value, phrases in values.items():
             for phrase in phrases.split(","):
                 words = tuple(phrase.split())
                 if words:
                     lexicon.setdefault(words, []).append(Leaf(category, value))
+                    phrases_of.setdefault(Leaf(category, value), []).append(words)
     unary, binary = _rules(data["rules"]["text"])
     return Grammar(
         data["language"],
         frozenset(data["noise"].split()),
         tuple((ending, instead) for ending, _, instead in (each.partition("=") for each in data["endings"].split())),
         {words: tuple(dict.fromkeys(leaves)) for words, leaves in lexicon.items()},
+        {leaf: tuple(dict.fromkeys(words)) for leaf, words in phrases_of.items()},
         _synonyms(data),
         {name: tuple(rgb) for name, rgb in data.get("colours", {}).items()},
         unary,
