@@ -209,10 +209,7 @@ def test_by_microphone(server: Server, chromium: Callable[..., Browser], tmp_pat
     with chromium(*flags, f"--use-file-for-fake-audio-capture={path}%noloop") as browser:
         person = Person(browser.new_context(permissions=["microphone"], locale="en"), server.address)
         choose(person, planner)
-        person.find("#options").click()
-        person.find("[name=ears][value=server]").check()
-        person.find("#hold").uncheck()
-        person.find("#options").click()
+        person.let_the_server_listen()
         person.find("#microphone").click()
         expect(person.find("#outcome")).to_contain_text("spoon", timeout=PATIENCE)
         assert person.errors == []

@@ -7,7 +7,7 @@ task the person speaks first.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,15 +29,30 @@ from fetch_pomdp.core.planners.kernels import NOBODY
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.errors import PlannerError
 
-Rule = Callable[[Vector], Integers]  # beliefs (k, n_items) to actions (k,), as in `planners.base`
 
+class RulePlanner(ABC):
+    """A planner whose choice is a rule over beliefs alone; it values picks alone."""
 
-def decided(rule: Rule, problem: Problem, belief: Belief, asked: int | None) -> Decision:
-    """Return the decision of a rule, which values picks alone. Raises PlannerError for a belief of another table."""
-    probabilities = belief.probabilities
-    checked_asked(probabilities, asked, problem)
-    action = action_of(int(rule(probabilities[np.newaxis])[0]), problem)
-    return Decision(action, np.nan, unvalued(problem), pick_values(probabilities, problem))
+    __slots__ = ()
+
+    @abstractmethod
+    def actions(self, beliefs: Vector, problem: Problem) -> Integers:
+        """Return an action (k,), as in `planners.base`, for each belief (k, n_items)."""
+
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
+        """Choose by rule. Raises PlannerError for a belief of another table."""
+        probabilities = belief.probabilities
+        checked_asked(probabilities, asked, problem)
+        action = action_of(int(self.actions(probabilities[np.newaxis], problem)[0]), problem)
+        return Decision(action, np.nan, unvalued(problem), pick_values(probabilities, problem))
+
+    def decide_many(
+        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
+    ) -> Integers:
+        """Choose an action for every belief; see `base.decide_many`."""
+        return self.actions(beliefs, problem)
 
 
 def question_or_pick(beliefs: Vector, item: Integers, asks: Vector) -> Integers:
@@ -51,7 +66,7 @@ def question_or_pick(beliefs: Vector, item: Integers, asks: Vector) -> Integers:
 
 
 @dataclass(frozen=True, slots=True)
-class ChaiRule:
+class ChaiRule(RulePlanner):
     """Asks about the likeliest item while there is more than one candidate, and picks the one that is left.
 
     A candidate is an item whose belief is at least `ratio` times that of the likeliest. Source: Chai et al. [4], whose
@@ -71,31 +86,14 @@ class ChaiRule:
         expected = "a share of the largest belief, above 0 and at most 1"
         object.__setattr__(self, "ratio", checks.within(self.ratio, 1e-9, 1.0, "ratio", expected, PlannerError))
 
-    def decide(
-        self,
-        problem: Problem,
-        belief: Belief,
-        asked: int | None,
-        *,
-        rng: Generator,
-        phase: int = 0,
-    ) -> Decision:
-        """Choose by rule."""
-        return decided(self._actions, problem, belief, asked)
-
-    def decide_many(
-        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:
-        """Choose an action for every belief; see `base.decide_many`."""
-        return self._actions(beliefs)
-
-    def _actions(self, beliefs: Vector) -> Integers:
+    def actions(self, beliefs: Vector, problem: Problem) -> Integers:
+        """Ask while there is more than one candidate."""
         candidates = (beliefs >= self.ratio * beliefs.max(axis=1, keepdims=True)).sum(axis=1)
         return question_or_pick(beliefs, beliefs.argmax(axis=1), candidates > 1)
 
 
 @dataclass(frozen=True, slots=True)
-class InformationGain:
+class InformationGain(RulePlanner):
     """Asks the question that is expected to take most entropy from the belief, while that is worth its price; else
     picks the likeliest item if that is worth a wait or more, and waits if not.
 
@@ -118,25 +116,8 @@ class InformationGain:
         value = checks.within(self.worth, 0.0, 1e3, "worth", "a number from 0 to 1000", PlannerError)
         object.__setattr__(self, "worth", value)
 
-    def decide(
-        self,
-        problem: Problem,
-        belief: Belief,
-        asked: int | None,
-        *,
-        rng: Generator,
-        phase: int = 0,
-    ) -> Decision:
-        """Choose by rule."""
-        return decided(lambda beliefs: self._actions(beliefs, problem), problem, belief, asked)
-
-    def decide_many(
-        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:
-        """Choose an action for every belief; see `base.decide_many`."""
-        return self._actions(beliefs, problem)
-
-    def _actions(self, beliefs: Vector, problem: Problem) -> Integers:
+    def actions(self, beliefs: Vector, problem: Problem) -> Integers:
+        """Ask what is worth its price, wait for what is not sure, pick the rest."""
         tables = problem.tables
         earned = tables.pick_correct - tables.pick_wrong
         gains = answer_information(beliefs, problem)
@@ -165,7 +146,7 @@ def binary_entropy(chance: Vector) -> Vector:
 
 
 @dataclass(frozen=True, slots=True)
-class OneShot:
+class OneShot(RulePlanner):
     """Picks the likeliest item after the first observation that sets any item apart; it never asks.
 
     With a `confidence` above 0 it waits until its belief has reached that. Source: [22], the paper's "previous work",
@@ -187,25 +168,8 @@ class OneShot:
         value = checks.within(self.confidence, 0.0, 1.0, "confidence", "a probability from 0 to 1", PlannerError)
         object.__setattr__(self, "confidence", value)
 
-    def decide(
-        self,
-        problem: Problem,
-        belief: Belief,
-        asked: int | None,
-        *,
-        rng: Generator,
-        phase: int = 0,
-    ) -> Decision:
+    def actions(self, beliefs: Vector, problem: Problem) -> Integers:
         """Wait, or pick the likeliest item."""
-        return decided(self._actions, problem, belief, asked)
-
-    def decide_many(
-        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:
-        """Choose an action for every belief; see `base.decide_many`."""
-        return self._actions(beliefs)
-
-    def _actions(self, beliefs: Vector) -> Integers:
         waits = is_uniform(beliefs) | (beliefs.max(axis=1) < self.confidence)
         return np.where(waits, NOBODY, beliefs.shape[1] + beliefs.argmax(axis=1))
 
