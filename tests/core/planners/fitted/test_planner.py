@@ -206,6 +206,7 @@ def test_large_tables_are_left_to_the_closed_form() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long  # what runs always is `test_default_planner_earns_at_least`, on 40,000 people
 @pytest.mark.parametrize(
     ("layout", "likelihood", "least"),
     [
