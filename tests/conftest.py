@@ -59,7 +59,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "browser: needs Chromium and the packages of requirements/browser.txt")
     config.addinivalue_line("markers", "postgres: needs a PostgreSQL server (tests/with_postgres.sh)")
     config.addinivalue_line(
-        "markers", "long: a proof by many samples, of which a shorter one runs always; `make proofs`"
+        "markers", "long: by many samples, voices or processes; left to `make check-all`, as `make proofs`"
     )
     config.addinivalue_line("markers", "load: many people at once on a server, half a minute; Linux")
     # Without compilation SplitMix64 wraps around in NumPy scalars, which warn.

@@ -110,7 +110,9 @@ def test_at_the_terminal(planner: str) -> None:
     assert OBJECTED in said
 
 
-@pytest.mark.parametrize("planner", ASKING)
+@pytest.mark.parametrize(
+    "planner", [name if name in OFFERED[:2] else pytest.param(name, marks=pytest.mark.long) for name in ASKING]
+)
 def test_on_a_recording(planner: str, tmp_path: Path) -> None:
     """Made as it goes on: each time it is played from the beginning, and what is said next is added to it."""
     path, mind, talk = tmp_path / "story.wav", Mind(), [(0.5, REQUEST)]

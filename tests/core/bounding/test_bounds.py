@@ -194,11 +194,11 @@ def test_pointing_raises_the_ceiling_and_an_item_left_over_is_revealed() -> None
 @pytest.mark.slow
 def test_scenarios_are_the_same_whatever_is_drawn_beside_them(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = Problem(Scene.load("unambiguous"))
-    few = clairvoyant_returns(problem, constant(1.0), 20, 3, tau=1.0)
+    few = clairvoyant_returns(problem, constant(1.0), 10, 3, tau=1.0)
     monkeypatch.setattr(compiled, "_SHARE", 7)
     monkeypatch.setattr("os.sched_getaffinity", lambda _: {0, 1, 2}, raising=False)
-    assert clairvoyant_returns(problem, constant(1.0), 60, 3, tau=1.0)[:20].tolist() == few.tolist()
-    assert clairvoyant_returns(problem, constant(1.0), 20, 4, tau=1.0).tolist() != few.tolist()
+    assert clairvoyant_returns(problem, constant(1.0), 24, 3, tau=1.0)[:10].tolist() == few.tolist()
+    assert clairvoyant_returns(problem, constant(1.0), 10, 4, tau=1.0).tolist() != few.tolist()
 
 
 def test_a_large_table_gets_the_closed_form() -> None:
