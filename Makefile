@@ -4,7 +4,7 @@ BIN := .venv/bin
 EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
-.PHONY: demo test compiled lint coverage page check-all shows docs numbers check-robot audit screenshots film bench picture requirements clean
+.PHONY: demo test compiled lint coverage page check-all proofs shows docs numbers check-robot audit screenshots film bench picture requirements clean
 
 demo: .venv/installed
 	@$(BIN)/fetch-pomdp fetch ambiguous $(RECORDING)
@@ -15,7 +15,6 @@ demo: .venv/installed
 # The linters take one core while the other compiles what both processes of the tests would compile.
 test: .venv/tested
 	$(MAKE) --no-print-directory -j 2 lint compiled
-	$(MAKE) --no-print-directory coverage
 	$(BIN)/pytest -n 2 --dist worksteal
 
 compiled: .venv/tested
@@ -26,7 +25,7 @@ lint: .venv/tested
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-# Compiled code leaves no trace in a coverage report, so the core is measured in a second short run without compilation.
+# Compiled code leaves no trace in a coverage report, so the core is measured in a second run without compilation.
 coverage: .venv/tested
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -n 2 --dist worksteal tests/core -m 'not slow' --cov=src/fetch_pomdp/core --cov-report=term --cov-fail-under=95
 
@@ -40,9 +39,12 @@ node_modules/.installed: package.json
 	npm install --no-package-lock --no-audit --no-fund --loglevel=error
 	@touch $@
 
-# What takes long or needs more of the machine: the page in Debian's Chromium, a PostgreSQL, fifty people at once
-# (apt install chromium postgresql espeak-ng flite sox).
-check-all: test shows
+# What takes long or needs more of the machine: the core once more in plain Python, proofs by many samples, and the page in
+# Debian's Chromium, a PostgreSQL, fifty people at once (apt install chromium postgresql espeak-ng flite sox).
+check-all: test coverage proofs shows
+
+proofs: .venv/tested
+	$(BIN)/pytest -n 2 --dist worksteal -m long tests
 
 shows: .venv/tested
 	tests/with_postgres.sh $(BIN)/pytest -m 'browser or postgres or load' tests

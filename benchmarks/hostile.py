@@ -21,9 +21,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.random import Generator
 
+from fetch_pomdp.core.action import Point
+from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.language.reading.grammar import LANGUAGES, grammar
 from fetch_pomdp.core.language.reading.reader import TableReader
-from fetch_pomdp.core.language.reading.talk import Talk
 from fetch_pomdp.core.scene import Item, Scene
 
 TURNS = 20  # of a talk, before another table
@@ -118,15 +119,15 @@ def strike(count: int, seed: int) -> Outcome:
     found = Outcome(Counter(), [], (0.0, "", ""))
     for index in range(count):
         if index % TURNS == 0:
-            talk = Talk(table(rng), _one(rng, readers))
+            agent = Agent(table(rng), reader=_one(rng, readers))
         if rng.random() < 0.3:
-            talk = talk.ask(int(rng.integers(len(talk.scene.items))))
+            agent.did(Point(int(rng.integers(agent.problem.n_items))))
         kind = _one(rng, list(KINDS))
         text = KINDS[kind](rng)
         begun = time.process_time()
         try:
-            talk = talk.say(text)
-            _check(talk)
+            agent.observe(text)
+            _check(agent)
         except Exception as error:
             found.failed.append((kind, text, f"{type(error).__name__}: {error}"))
         found.slowest = max(found.slowest, (time.process_time() - begun, kind, text))
@@ -134,14 +135,16 @@ def strike(count: int, seed: int) -> Outcome:
     return found
 
 
-def _check(talk: Talk) -> None:
-    heard = talk.heard
-    if heard is None or not np.isfinite(heard.log_likelihood).all():
+def _check(agent: Agent) -> None:
+    heard = agent.understood.heard
+    if heard is not None and not np.isfinite(heard.log_likelihood).all():
         raise ValueError("found a likelihood that is not finite")
-    if abs(float(np.exp(heard.log_likelihood).sum()) - 1.0) > 1e-9 or not 0.0 <= heard.lost <= 1.0:
+    if heard is not None and (
+        abs(float(np.exp(heard.log_likelihood).sum()) - 1.0) > 1e-9 or not 0.0 <= heard.lost <= 1.0
+    ):
         raise ValueError("found chances that do not sum to 1")
-    if not np.isfinite(talk.chances).all():
-        raise ValueError("found a belief that is not finite")
+    if not np.isfinite(agent.belief).all() or abs(float(agent.belief.sum()) - 1.0) > 1e-9:
+        raise ValueError("found a belief that is none")
 
 
 def main() -> None:

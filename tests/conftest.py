@@ -61,6 +61,9 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: takes long when Numba is off; left out of the coverage run")
     config.addinivalue_line("markers", "browser: needs Chromium and the packages of requirements/browser.txt")
     config.addinivalue_line("markers", "postgres: needs a PostgreSQL server (tests/with_postgres.sh)")
+    config.addinivalue_line(
+        "markers", "long: by many samples, voices or processes; left to `make check-all`, as `make proofs`"
+    )
     config.addinivalue_line("markers", "load: many people at once on a server, half a minute; Linux")
     # Without compilation SplitMix64 wraps around in NumPy scalars, which warn.
     config.addinivalue_line("filterwarnings", "ignore:overflow encountered:RuntimeWarning")

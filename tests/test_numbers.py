@@ -42,7 +42,10 @@ def test_gap_has_the_returns_of_the_readme(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["`FittedValue()`, the default", "`Threshold()`, three numbers"])
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param("`FittedValue()`, the default", marks=pytest.mark.long), "`Threshold()`, three numbers"],
+)
 def test_the_cheapest_rows_are_what_is_measured_now(name: str) -> None:
     """Another processor rounds otherwise, which may turn a few of 50,000 interactions."""
     planner = re.findall(r"`(.+?)`", name)[0]

@@ -86,6 +86,7 @@ def story(voice: str, folder: Path) -> bool:
     return bool(picked and person.asked) and {person.asked[0], picked[0]} == markers
 
 
+@pytest.mark.long
 @pytest.mark.skipif(
     any(shutil.which(tool) is None for tool in ("espeak-ng", "flite", "sox")),
     reason="needs the Debian packages espeak-ng, flite and sox",

@@ -61,26 +61,26 @@ def read_text(path: str | Path, error: type[InputError]) -> str:
 
 def read_raw(path: str | Path, error: type[InputError]) -> bytes:
     """Return a file's bytes. Raises `error` for a file that is missing, unreadable, or over LARGEST_FILE."""
-    try:
-        with Path(path).open("rb") as stream:
-            found = stream.read(LARGEST_FILE + 1)
-    except (OSError, ValueError) as cause:
-        raise error(_reason(cause), source=str(path)) from None
-    if len(found) > LARGEST_FILE:
-        raise error(f"found more than {LARGEST_FILE >> 20} MiB, expected a smaller file", source=str(path))
-    return found
+    larger = f"found more than {LARGEST_FILE >> 20} MiB, expected a smaller file"
+    return _at_most(LARGEST_FILE, path, error, larger)
 
 
 def read_toml(path: str | Path, error: type[InputError]) -> Document:
     """Read a TOML file. Raises `error` as `parse_toml`, and for a file that cannot be read."""
+    raw = _at_most(LARGEST_TOML, path, error, f"file too large, expected at most {LARGEST_TOML} bytes")
+    return parse_toml(_decoded(raw, str(path), 1, error), str(path), error)
+
+
+def _at_most(most: int, path: str | Path, error: type[InputError], larger: str) -> bytes:
+    """Return a file's bytes, and read no more than `most` of them; larger: what to say of a file that has more."""
     try:
         with Path(path).open("rb") as stream:
-            raw = stream.read(LARGEST_TOML + 1)
+            found = stream.read(most + 1)
     except (OSError, ValueError) as cause:
         raise error(_reason(cause), source=str(path)) from None
-    if len(raw) > LARGEST_TOML:
-        raise error(f"file too large, expected at most {LARGEST_TOML} bytes", source=str(path))
-    return parse_toml(_decoded(raw, str(path), 1, error), str(path), error)
+    if len(found) > most:
+        raise error(larger, source=str(path))
+    return found
 
 
 def parse_toml(text: str, source: str, error: type[InputError]) -> Document:

@@ -134,6 +134,7 @@ def test_calibrate_writes_a_model_that_commands_take(run: Run, study: list[Path]
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_calibrate_says_what_limits_accuracy(run: Run, study: list[Path]) -> None:
     found = json.loads(run("calibrate", *study, "--episodes", 2_000, "--json")[1])["limits"]
     assert list(found) == ["ambiguous", "unambiguous"]

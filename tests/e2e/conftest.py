@@ -115,6 +115,23 @@ class Person:
     def find(self, selector: str) -> Locator:
         return self.page.locator(selector)
 
+    def point_with_the_mouse(self, item: str) -> None:
+        """Point above an item until the bars have moved."""
+        place = self.find(f"#items [data-item={item}]").bounding_box()
+        assert place is not None
+        self.page.mouse.move(place["x"] + place["width"] / 2, place["y"] - 12)
+        self.page.mouse.down()
+        expect(self.find("#items .provisional")).not_to_have_count(0, timeout=PATIENCE)
+        self.page.mouse.up()
+        expect(self.find("#log")).to_contain_text("You pointed", timeout=PATIENCE)
+
+    def let_the_server_listen(self) -> None:
+        """Choose the server's ears, for a microphone that stays open."""
+        self.find("#options").click()
+        self.find("[name=ears][value=server]").check()
+        self.find("#hold").uncheck()
+        self.find("#options").click()
+
     def log(self) -> str:
         return self.find("#log").inner_text()
 

@@ -94,14 +94,8 @@ def messages(person: Person) -> list[dict[str, Any]]:
     return [json.loads(message) for message in person.sent]
 
 
-def point_with_the_mouse(person: Person, item: str) -> None:
-    place = person.find(f"#items [data-item={item}]").bounding_box()
-    assert place is not None
-    person.page.mouse.move(place["x"] + place["width"] / 2, place["y"] - 12)
-    person.page.mouse.down()
-    expect(person.find("#items .provisional")).not_to_have_count(0, timeout=PATIENCE)
-    person.page.mouse.up()
-    expect(person.find("#log")).to_contain_text("You pointed", timeout=PATIENCE)
+def mouse_moves_the_belief(person: Person, item: str) -> None:
+    person.point_with_the_mouse(item)
     assert share(person, item) > 50
 
 
@@ -136,7 +130,7 @@ def test_an_arm_that_is_too_coarse_is_not_used(
         person.page.wait_for_timeout(6_000)  # the film points at marker-2 meanwhile
         assert {message["type"] for message in messages(person)} == {"hello"}
         assert all(message["sigma"] is None for message in messages(person))
-        point_with_the_mouse(person, "bowl-1")
+        mouse_moves_the_belief(person, "bowl-1")
 
 
 def test_a_camera_that_sees_nobody_and_is_pulled_out_ends_nothing(
@@ -150,7 +144,7 @@ def test_a_camera_that_sees_nobody_and_is_pulled_out_ends_nothing(
         person.find("#camera-off").click()
         expect(person.find("#camera")).to_be_hidden()
         assert person.page.evaluate(CLOSED)
-        point_with_the_mouse(person, "spoon-1")
+        mouse_moves_the_belief(person, "spoon-1")
 
 
 def test_two_hands_and_few_pictures_are_said(server: Server, chromium: Callable[..., Browser], tmp_path: Path) -> None:
@@ -158,13 +152,13 @@ def test_two_hands_and_few_pictures_are_said(server: Server, chromium: Callable[
     with before_camera(server, chromium, *flags, script=SLUGGISH) as person:
         said(person).to_contain_text("Both hands are up. Lower one.", timeout=PATIENCE)
         expect(person.find("#camera-slow")).to_contain_text("few pictures a second", timeout=PATIENCE)
-        point_with_the_mouse(person, "marker-1")
+        mouse_moves_the_belief(person, "marker-1")
 
 
 def test_a_camera_that_is_refused_is_said(server: Server, chromium: Callable[..., Browser]) -> None:
     with before_camera(server, chromium, CAMERA[0], permissions=()) as person:
         said(person).to_contain_text("The camera cannot be used", timeout=PATIENCE)
-        point_with_the_mouse(person, "bowl-2")
+        mouse_moves_the_belief(person, "bowl-2")
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

@@ -111,7 +111,9 @@ def test_at_the_terminal(planner: str) -> None:
     assert OBJECTED in said
 
 
-@pytest.mark.parametrize("planner", ASKING)
+@pytest.mark.parametrize(
+    "planner", [name if name in OFFERED[:2] else pytest.param(name, marks=pytest.mark.long) for name in ASKING]
+)
 def test_on_a_recording(planner: str, tmp_path: Path) -> None:
     """Made as it goes on: each time it is played from the beginning, and what is said next is added to it."""
     path, mind, talk = tmp_path / "story.wav", Mind(), [(0.5, REQUEST)]
@@ -210,10 +212,7 @@ def test_by_microphone(server: Server, chromium: Callable[..., Browser], tmp_pat
     with chromium(*flags, f"--use-file-for-fake-audio-capture={path}%noloop") as browser:
         person = Person(browser.new_context(permissions=["microphone"], locale="en"), server.address)
         choose(person, planner)
-        person.find("#options").click()
-        person.find("[name=ears][value=server]").check()
-        person.find("#hold").uncheck()
-        person.find("#options").click()
+        person.let_the_server_listen()
         person.find("#microphone").click()
         expect(person.find("#outcome")).to_contain_text("spoon", timeout=PATIENCE)
         assert person.errors == []

@@ -60,13 +60,7 @@ def test_the_keyboard_is_enough(visit: Visit) -> None:
 
 def test_pointing_with_the_mouse_moves_the_bars_at_once(visit: Visit) -> None:
     person = visit()
-    place = person.find("#items [data-item=bowl-1]").bounding_box()
-    assert place is not None
-    person.page.mouse.move(place["x"] + place["width"] / 2, place["y"] - 12)
-    person.page.mouse.down()
-    expect(person.find("#items .provisional")).not_to_have_count(0, timeout=PATIENCE)
-    person.page.mouse.up()
-    expect(person.find("#log")).to_contain_text("You pointed", timeout=PATIENCE)
+    person.point_with_the_mouse("bowl-1")
     assert share(person, "bowl-1") > share(person, "spoon-2")
 
 
@@ -181,10 +175,7 @@ def test_a_microphone_is_heard(server: Server, chromium: Callable[..., Browser])
     flags = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
     with chromium(*flags, f"--use-file-for-fake-audio-capture={sound}") as browser:
         person = Person(browser.new_context(permissions=["microphone"], locale="en"), server.address)
-        person.find("#options").click()
-        person.find("[name=ears][value=server]").check()
-        person.find("#hold").uncheck()
-        person.find("#options").click()
+        person.let_the_server_listen()
         person.find("#microphone").click()
         expect(person.find("#log")).to_contain_text("marker", timeout=PATIENCE)
         assert share(person, "marker-1") > 30
@@ -235,10 +226,7 @@ def test_figure_1_is_told_by_the_real_parts(server: Server, chromium: Callable[.
     with chromium(*flags, f"--use-file-for-fake-audio-capture={sound}%noloop") as browser:
         context = browser.new_context(viewport={"width": 1280, "height": 800}, permissions=["microphone"], locale="en")
         person = Person(context, server.address)
-        person.find("#options").click()
-        person.find("[name=ears][value=server]").check()
-        person.find("#hold").uncheck()
-        person.find("#options").click()
+        person.let_the_server_listen()
         boxes = [person.find(f"#items [data-item={item}]").bounding_box() for item in sorted(MARKERS)]
         middle = sum(box["x"] + box["width"] / 2 for box in boxes if box) / 2
         person.page.mouse.move(middle, min(box["y"] for box in boxes if box) - 20)

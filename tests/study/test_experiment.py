@@ -152,6 +152,7 @@ def test_who_does_the_work_changes_nothing(crew: Crew, whole: dict[str, bytes], 
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_dask_cluster_gives_the_same(whole: dict[str, bytes], tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
@@ -160,6 +161,7 @@ def test_a_dask_cluster_gives_the_same(whole: dict[str, bytes], tmp_path: Path) 
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_ray_cluster_gives_the_same(whole: dict[str, bytes], tmp_path: Path) -> None:
     pytest.importorskip("ray.util.joblib")
     run(LOGGED, tmp_path, Crew(workers=2, backend="ray"))

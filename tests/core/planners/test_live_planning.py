@@ -21,6 +21,7 @@ from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import Summary, simulate
 from fetch_pomdp.core.turns import LEAST, Turns
+from tests.core.planners.alone import decided_alone
 from tests.oracles.talking import Person, action_values, all_talks
 from tests.tables import live, table, world_of
 
@@ -163,10 +164,5 @@ def test_many_decisions_are_those_one_by_one() -> None:
     beliefs, asked = rng.dirichlet(np.full(6, 0.4), 200), rng.integers(-1, 6, 200)
     phases = rng.integers(len(problem.tables.begun), size=200)
     many = decide_many(planner, problem, beliefs, asked, rng=default_rng(3), phases=phases)
-    robot, one_by_one = default_rng(3), list[int]()
-    for belief, about, phase in zip(beliefs, asked, phases, strict=True):
-        last = None if about < 0 else int(about)
-        decision = planner.decide(problem, Belief(belief), last, rng=robot, phase=int(phase))
-        one_by_one.append(code_of(decision.action, problem))
-    assert many.tolist() == one_by_one
-    assert len(set(one_by_one)) > 8  # of a wait, 6 questions and 6 picks
+    assert many.tolist() == decided_alone(planner, problem, beliefs, asked, seed=3, phases=phases)
+    assert len(set(many.tolist())) > 8  # of a wait, 6 questions and 6 picks

@@ -198,6 +198,7 @@ def test_known_parameters_are_recovered() -> None:
         assert found[name].low < found[name].value < found[name].high
 
 
+@pytest.mark.long
 def test_intervals_cover() -> None:
     """All parameters of 25 sets, 8 intervals a set: 180 of 200 are expected to hold; 4 standard errors are 17."""
     held = total = 0

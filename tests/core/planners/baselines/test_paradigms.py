@@ -11,7 +11,7 @@ from numpy.random import default_rng
 from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.live.person import LIVE_MODEL
-from fetch_pomdp.core.planners.base import Planner, code_of, decide_many
+from fetch_pomdp.core.planners.base import Planner, decide_many
 from fetch_pomdp.core.planners.baselines.paradigms import AlwaysAsk, NeverAsk, is_clear
 from fetch_pomdp.core.planners.baselines.rules import OneShot, PaperAlwaysAsk
 from fetch_pomdp.core.planners.baselines.searches import PaperNeverAsk
@@ -19,6 +19,7 @@ from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import Summary, run_episode, simulate
+from tests.core.planners.alone import decided_alone
 from tests.tables import table
 
 PAPER = {name: Problem(Scene.load(name)) for name in ("ambiguous", "unambiguous")}
@@ -39,12 +40,7 @@ def beats(better: Summary, worse: Summary) -> bool:
 def test_many_decisions_are_those_one_by_one(planner: Planner, problem: Problem) -> None:
     phases = default_rng(2).integers(len(problem.tables.begun), size=len(BELIEFS))
     many = decide_many(planner, problem, BELIEFS, ASKED, rng=default_rng(3), phases=phases)
-    robot, one_by_one = default_rng(3), list[int]()
-    for belief, about, phase in zip(BELIEFS, ASKED, phases, strict=True):
-        last = None if about < 0 else int(about)
-        decision = planner.decide(problem, Belief(belief), last, rng=robot, phase=int(phase))
-        one_by_one.append(code_of(decision.action, problem))
-    assert many.tolist() == one_by_one
+    assert many.tolist() == decided_alone(planner, problem, BELIEFS, ASKED, seed=3, phases=phases)
 
 
 @pytest.mark.parametrize(("problem", "phase"), [(PAPER["ambiguous"], 0), (LIVE, 4)], ids=["paper", "live"])

@@ -17,7 +17,7 @@ from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation, phase_after
-from fetch_pomdp.core.planners.base import Planner, code_of, decide_many
+from fetch_pomdp.core.planners.base import Planner, decide_many
 from fetch_pomdp.core.planners.baselines.rules import (
     ChaiRule,
     InformationGain,
@@ -30,6 +30,7 @@ from fetch_pomdp.core.planners.kernels import ASKED, Turn, answered
 from fetch_pomdp.core.simulation import simulate
 from fetch_pomdp.core.turns import YES, Turns
 from fetch_pomdp.errors import PlannerError
+from tests.core.planners.alone import decided_alone
 from tests.core.planners.baselines.acting import AMBIGUOUS, act
 from tests.tables import live, table, twins
 
@@ -56,11 +57,7 @@ def test_many_decisions_are_those_one_by_one(planner: Planner) -> None:
     beliefs = np.vstack([default_rng(0).dirichlet([0.4] * 6, size=300), np.full((1, 6), 1 / 6)])
     asked = default_rng(1).integers(-1, 6, size=len(beliefs))
     many = decide_many(planner, AMBIGUOUS, beliefs, asked, rng=default_rng(0))
-    one_by_one = [
-        code_of(act(planner, belief.tolist(), None if about < 0 else int(about), AMBIGUOUS), AMBIGUOUS)
-        for belief, about in zip(beliefs, asked, strict=True)
-    ]
-    assert many.tolist() == one_by_one
+    assert many.tolist() == decided_alone(planner, AMBIGUOUS, beliefs, asked, seed=0)
     assert len(set(many.tolist())) > 6
 
 

@@ -21,6 +21,7 @@ from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.simulation import simulate
 from fetch_pomdp.errors import PlannerError
+from tests.core.planners.alone import decided_alone
 from tests.tables import table, twins
 
 AMBIGUOUS = Problem(Scene.load("ambiguous"))
@@ -140,13 +141,8 @@ def test_many_decisions_are_those_one_by_one(problem: Problem) -> None:
     asked = default_rng(1).integers(-1, count, 700)
     for planner in (FittedValue(), Threshold(), SparseSampling(2, 3), ExactAnswers(2, 3)):
         together = decide_many(planner, problem, beliefs, asked, rng=default_rng(5))
-        rng = default_rng(5)
-        alone = [
-            code_of(planner.decide(problem, Belief(b), None if a < 0 else int(a), rng=rng).action, problem)
-            for b, a in zip(beliefs, asked, strict=True)
-        ]
-        assert together.tolist() == alone
-        assert len({*alone}) > 1 or count == 1
+        assert together.tolist() == decided_alone(planner, problem, beliefs, asked, seed=5)
+        assert len({*together.tolist()}) > 1 or count == 1
 
 
 def test_actions_as_numbers() -> None:
@@ -210,6 +206,7 @@ def test_large_tables_are_left_to_the_closed_form() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long  # what runs always is `test_default_planner_earns_at_least`, on 40,000 people
 @pytest.mark.parametrize(
     ("layout", "likelihood", "least"),
     [

@@ -7,7 +7,7 @@ task the person speaks first.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -31,15 +31,39 @@ from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.turns import POINTS, WORDS, answered_at_all
 from fetch_pomdp.errors import PlannerError
 
-Rule = Callable[[Vector], Integers]  # beliefs (k, n_items) to actions (k,), as in `planners.base`
+
+class Standing(NamedTuple):
+    """How the talk stands with each of k beliefs."""
+
+    asked: Integers  # (k,), i_r or NOBODY
+    phases: Integers  # (k,), see `turns`
 
 
-def decided(rule: Rule, problem: Problem, belief: Belief, asked: int | None) -> Decision:
-    """Return the decision of a rule, which values picks alone. Raises PlannerError for a belief of another table."""
-    probabilities = belief.probabilities
-    checked_asked(probabilities, asked, problem)
-    action = action_of(int(rule(probabilities[np.newaxis])[0]), problem)
-    return Decision(action, np.nan, unvalued(problem), pick_values(probabilities, problem))
+class RulePlanner(ABC):
+    """A planner whose choice is a rule over beliefs, and over how the talk stands; it values picks alone."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def actions(self, beliefs: Vector, standing: Standing, problem: Problem) -> Integers:
+        """Return an action (k,), as in `planners.base`, for each belief (k, n_items)."""
+
+    def decide(
+        self, problem: Problem, belief: Belief, asked: int | None, *, rng: Generator, phase: int = 0
+    ) -> Decision:
+        """Choose by rule. Raises PlannerError for a belief of another table."""
+        probabilities = belief.probabilities
+        checked_asked(probabilities, asked, problem)
+        standing = Standing(np.array([NOBODY if asked is None else asked]), np.array([phase]))
+        action = action_of(int(self.actions(probabilities[np.newaxis], standing, problem)[0]), problem)
+        return Decision(action, np.nan, unvalued(problem), pick_values(probabilities, problem))
+
+    def decide_many(
+        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
+    ) -> Integers:
+        """Choose an action for every belief; see `base.decide_many`."""
+        standing = Standing(asked, np.zeros_like(asked) if phases is None else phases)
+        return self.actions(beliefs, standing, problem)
 
 
 def question_or_pick(beliefs: Vector, item: Integers, asks: Vector) -> Integers:
@@ -53,7 +77,7 @@ def question_or_pick(beliefs: Vector, item: Integers, asks: Vector) -> Integers:
 
 
 @dataclass(frozen=True, slots=True)
-class ChaiRule:
+class ChaiRule(RulePlanner):
     """Asks about the likeliest item while there is more than one candidate, and picks the one that is left.
 
     A candidate is an item whose belief is at least `ratio` times that of the likeliest. Source: Chai et al. [4], whose
@@ -73,31 +97,14 @@ class ChaiRule:
         expected = "a share of the largest belief, above 0 and at most 1"
         object.__setattr__(self, "ratio", checks.within(self.ratio, 1e-9, 1.0, "ratio", expected, PlannerError))
 
-    def decide(
-        self,
-        problem: Problem,
-        belief: Belief,
-        asked: int | None,
-        *,
-        rng: Generator,
-        phase: int = 0,
-    ) -> Decision:
-        """Choose by rule."""
-        return decided(self._actions, problem, belief, asked)
-
-    def decide_many(
-        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:
-        """Choose an action for every belief; see `base.decide_many`."""
-        return self._actions(beliefs)
-
-    def _actions(self, beliefs: Vector) -> Integers:
+    def actions(self, beliefs: Vector, standing: Standing, problem: Problem) -> Integers:
+        """Ask while there is more than one candidate."""
         candidates = (beliefs >= self.ratio * beliefs.max(axis=1, keepdims=True)).sum(axis=1)
         return question_or_pick(beliefs, beliefs.argmax(axis=1), candidates > 1)
 
 
 @dataclass(frozen=True, slots=True)
-class InformationGain:
+class InformationGain(RulePlanner):
     """Asks the question that is expected to take most entropy from the belief, while that is worth its price; else
     picks the likeliest item if that is worth a wait or more, and waits if not.
 
@@ -124,34 +131,16 @@ class InformationGain:
         value = checks.within(self.worth, 0.0, 1e3, "worth", "a number from 0 to 1000", PlannerError)
         object.__setattr__(self, "worth", value)
 
-    def decide(
-        self,
-        problem: Problem,
-        belief: Belief,
-        asked: int | None,
-        *,
-        rng: Generator,
-        phase: int = 0,
-    ) -> Decision:
-        """Choose by rule."""
-        about, phases = np.array([NOBODY if asked is None else asked]), np.array([phase])
-        return decided(lambda beliefs: self._actions(beliefs, about, phases, problem), problem, belief, asked)
-
-    def decide_many(
-        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:
-        """Choose an action for every belief; see `base.decide_many`."""
-        return self._actions(beliefs, asked, np.zeros_like(asked) if phases is None else phases, problem)
-
-    def _actions(self, beliefs: Vector, asked: Integers, phases: Integers, problem: Problem) -> Integers:
+    def actions(self, beliefs: Vector, standing: Standing, problem: Problem) -> Integers:
+        """Ask what is worth its price, wait for what is not sure or still to come, pick the rest."""
         tables, due = problem.tables, expected_of(problem)
         per_bit = self.worth * (tables.pick_correct - tables.pick_wrong)
         bits = answer_information(beliefs, problem)
-        by_asking = bits.max(axis=1) * due.if_asked[phases]
-        by_waiting = bits[np.arange(len(beliefs)), asked] * due.if_awaited[phases]
+        by_asking = bits.max(axis=1) * due.if_asked[standing.phases]
+        by_waiting = bits[np.arange(len(beliefs)), standing.asked] * due.if_awaited[standing.phases]
         asks = per_bit * (by_asking - by_waiting) > tables.wait - tables.point
         actions = question_or_pick(beliefs, bits.argmax(axis=1), asks)
-        poor = pick_values(beliefs, problem).max(axis=1) < tables.wait / due.in_a_wait[phases]
+        poor = pick_values(beliefs, problem).max(axis=1) < tables.wait / due.in_a_wait[standing.phases]
         waits = ~asks & (poor | (per_bit * by_waiting > -tables.wait))
         return np.where(waits, NOBODY, actions)
 
@@ -193,7 +182,7 @@ def binary_entropy(chance: Vector) -> Vector:
 
 
 @dataclass(frozen=True, slots=True)
-class OneShot:
+class OneShot(RulePlanner):
     """Picks the likeliest item after the first observation that sets any item apart; it never asks.
 
     With a `confidence` above 0 it waits until its belief has reached that. Source: [22], the paper's "previous work",
@@ -215,25 +204,8 @@ class OneShot:
         value = checks.within(self.confidence, 0.0, 1.0, "confidence", "a probability from 0 to 1", PlannerError)
         object.__setattr__(self, "confidence", value)
 
-    def decide(
-        self,
-        problem: Problem,
-        belief: Belief,
-        asked: int | None,
-        *,
-        rng: Generator,
-        phase: int = 0,
-    ) -> Decision:
+    def actions(self, beliefs: Vector, standing: Standing, problem: Problem) -> Integers:
         """Wait, or pick the likeliest item."""
-        return decided(self._actions, problem, belief, asked)
-
-    def decide_many(
-        self, problem: Problem, beliefs: Vector, asked: Integers, *, rng: Generator, phases: Integers | None = None
-    ) -> Integers:
-        """Choose an action for every belief; see `base.decide_many`."""
-        return self._actions(beliefs)
-
-    def _actions(self, beliefs: Vector) -> Integers:
         waits = is_uniform(beliefs) | (beliefs.max(axis=1) < self.confidence)
         return np.where(waits, NOBODY, beliefs.shape[1] + beliefs.argmax(axis=1))
 
