@@ -17,7 +17,7 @@ from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.observation import Observation, phase_after
-from fetch_pomdp.core.planners.base import Planner, decide_many
+from fetch_pomdp.core.planners.base import Planner, code_of, decide_many
 from fetch_pomdp.core.planners.baselines.rules import (
     ChaiRule,
     InformationGain,

@@ -47,7 +47,7 @@ class Grammar:
     noise: frozenset[str]
     endings: tuple[tuple[str, str], ...]  # of inflected words, and what stands in their place in a dictionary
     lexicon: Mapping[tuple[str, ...], tuple[Leaf, ...]]
-    phrases: Mapping[Leaf, tuple[tuple[str, ...], ...]]  # of each leaf, the plainest first
+    said_as: Mapping[Leaf, tuple[tuple[str, ...], ...]]  # of each leaf, the plainest first
     synonyms: Mapping[str, tuple[str, ...]]  # of a word, those that a table may have in its place
     colours: Mapping[str, tuple[float, ...]]
     unary: Mapping[str, tuple[Rule, ...]]

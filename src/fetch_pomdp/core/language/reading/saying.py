@@ -92,7 +92,7 @@ class Speaker:
             elif leaf.category == "w":
                 choices.append([tuple(leaf.value.split())])
             else:
-                choices.append(self.language.phrases[leaf][: 2 if leaf.category in VARIED else 1])
+                choices.append(self.language.said_as[leaf][: 2 if leaf.category in VARIED else 1])
         return itertools.product(*choices)
 
     def _is_clear(self, phrases: Phrases, meant: Description) -> bool:
@@ -168,7 +168,7 @@ class _Chart:
         }
         yield from (Leaf("w", form.word) for form in self._forms if isinstance(form, Select))
         nameless = any(isinstance(form, Description) and not words_of(form) for form in self._forms)
-        for leaf in self._language.phrases:
+        for leaf in self._language.said_as:
             helps = leaf.value in values if leaf.category in TELLING else leaf.category != "n" or nameless
             if helps and leaf.category not in UNSAID:
                 yield leaf
