@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp.core.action import AnyAction, Pick, Wait
@@ -44,6 +45,14 @@ class AskingDecision:
         return float(self.ask[self.number - 1])
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Asked:
+    """Histories side by side, as compiled code reads them."""
+
+    last: Integers  # (m,), the question asked last, or -1
+    answers: Integers  # (m, n_questions), the last answer of each, or -1
+
+
 class AskingPlanner(Protocol):
     """Decides about questions of all kinds. It keeps no state between calls."""
 
@@ -56,12 +65,9 @@ class AskingPlanner(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Asked:
-    """Histories side by side, as compiled code reads them."""
-
-    last: Integers  # (m,), the question asked last, or -1
-    answers: Integers  # (m, n_questions), the last answer of each, or -1
+def asked_of(history: History) -> Asked:
+    """Return one history as compiled code reads it."""
+    return Asked(np.array([-1 if history.last is None else history.last]), np.array([history.answers]))
 
 
 def checked(problem: Problem, probabilities: Vector, history: History) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -64,3 +65,19 @@ def chances_after(answers: Integers, rows: Rows) -> Vector:
                         row, item, begin, answers[question], rows.shared[question], rows.chances
                     )
     return chances
+
+
+@lean
+def information(question: int, belief: Vector, chances: Vector, starts: Integers) -> float:
+    """Return what the answer to a question tells about the item, in nats, if one comes (mutual information)."""
+    told = 0.0
+    for answer in range(starts[question], starts[question + 1]):
+        row, chance = chances[answer], 0.0
+        for item in range(len(belief)):
+            joint = belief[item] * row[item]
+            chance += joint
+            if joint > 0.0:
+                told += joint * math.log(row[item])
+        if chance > 0.0:
+            told -= chance * math.log(chance)
+    return told

@@ -10,7 +10,7 @@ from numpy.random import Generator
 
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Integers, Vector, on_all_cores
-from fetch_pomdp.core.planners.asking import Asked, AskingDecision, checked
+from fetch_pomdp.core.planners.asking import Asked, AskingDecision, asked_of, checked
 from fetch_pomdp.core.planners.base import pick_values, whole_number
 from fetch_pomdp.core.planners.pointbased.ahead import Solved, step_ahead, step_ahead_many
 from fetch_pomdp.core.planners.pointbased.solve import solved
@@ -53,9 +53,8 @@ class PointBased:
         """Choose the action with the highest value."""
         probabilities = belief.probabilities
         checked(problem, probabilities, history)
-        last = -1 if history.last is None else history.last
-        known = solution(problem, self.seed)
-        wait, ask, number = step_ahead(probabilities, last, np.array(history.answers), known)
+        asked, known = asked_of(history), solution(problem, self.seed)
+        wait, ask, number = step_ahead(probabilities, int(asked.last[0]), asked.answers[0], known)
         return AskingDecision(action_at(number, problem), number, wait, ask, pick_values(probabilities, problem))
 
     def decide_many_asking(

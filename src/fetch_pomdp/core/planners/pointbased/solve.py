@@ -11,13 +11,12 @@ that they could not reach.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from fetch_pomdp.core.compiled import RandomState, Vector, compiled, lean, random_state, uniform
 from fetch_pomdp.core.planners.kernels import normalise
 from fetch_pomdp.core.planners.pointbased.backup import Memory, Steps, Vectors, backup
+from fetch_pomdp.core.questions.rows import information
 
 CAPACITY = 256  # plans
 REFINED = 4  # questions that are valued by all outcomes
@@ -79,7 +78,8 @@ def sweep(beliefs: Vector, slack: float, steps: Steps, vectors: Vectors, memory:
         order[index], order[place] = order[place], order[index]
     reached = np.full(count, -np.inf)
     vectors.size[0] = 0
-    for index in order:
+    for one in order:
+        index = int(one)
         if reached[index] >= values[index] - slack or vectors.size[0] == CAPACITY:
             continue
         vectors.values[:, vectors.size[0]] = plans[index]
@@ -168,23 +168,7 @@ def most_telling(belief: Vector, steps: Steps) -> int:
     """Return the question that tells most, in bits, for its price."""
     best, found = -1.0, 0
     for question in range(len(steps.prices)):
-        told = information(question, belief, steps) / max(-steps.prices[question], 1e-9)
+        told = information(question, belief, steps.rows, steps.starts) / max(-steps.prices[question], 1e-9)
         if told > best:
             best, found = told, question
     return found
-
-
-@lean
-def information(question: int, belief: Vector, steps: Steps) -> float:
-    """Return what the answer to a question tells about the item, in nats, if one comes (mutual information)."""
-    told = 0.0
-    for answer in range(steps.starts[question], steps.starts[question + 1]):
-        row = steps.rows[answer]
-        chance = 0.0
-        for item in range(len(belief)):
-            chance += belief[item] * row[item]
-            if belief[item] * row[item] > 0.0:
-                told += belief[item] * row[item] * math.log(row[item])
-        if chance > 0.0:
-            told -= chance * math.log(chance)
-    return told
