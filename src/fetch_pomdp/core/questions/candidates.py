@@ -105,8 +105,8 @@ def points(scene: Scene, asking: Asking | None = None) -> tuple[Question, ...]:
 def candidates(scene: Scene, asking: Asking | None = None) -> tuple[Question, ...]:
     """Return all questions of a scene, of the kinds wanted: those about one item first, in scene order.
 
-    Of spoken questions that divide the items alike, or the other way round, the first is kept: attributes, places, two
-    attributes. Questions about one item are kept whatever else there is.
+    Of spoken questions that divide the items alike, or the other way round, the one that tells most is kept, and of
+    equals the first: attributes, places, two attributes. Questions about one item are kept whatever else there is.
     """
     found = _Found(scene, asking or Asking())
     asking = found.asking
@@ -114,18 +114,22 @@ def candidates(scene: Scene, asking: Asking | None = None) -> tuple[Question, ..
     spoken = [each for each in (*_attributes(found), *_regions(found), *_both(found)) if each.kind in asking.kinds]
     others = [*_without_doubles(spoken), *_pairs(found), *_open(found), *_repeat(found)]
     others = [each for each in others if each.kind in asking.kinds]
-    told = np.array([each.information(np.full(found.size, 1.0 / found.size)) for each in others])
+    told = np.array([_told(each) for each in others])
     best = np.sort(np.argsort(-told, kind="stable")[: asking.most])
     return (*kept, *(others[index] for index in best if told[index] > 1e-6))
 
 
 def _without_doubles(questions: list[Question]) -> list[Question]:
     found: dict[bytes, Question] = {}
-    for question in questions:
-        yes = question.chances[0].round(3) > 0.5
-        key = (yes if yes[0] else ~yes).tobytes()
-        found.setdefault(key, question)
-    return list(found.values())
+    for question in sorted(questions, key=lambda each: -round(_told(each), 6)):
+        yes = question.chances[0] > 0.5
+        found.setdefault((yes if yes[0] else ~yes).tobytes(), question)
+    return [question for question in questions if any(question is kept for kept in found.values())]
+
+
+def _told(question: Question) -> float:
+    """Return what a question tells where nothing is known, in bits."""
+    return question.information(np.full(question.n_items, 1.0 / question.n_items))
 
 
 def _spoken(found: _Found, kind: Kind, said: str, words: tuple[str, ...], members: tuple[int, ...]) -> Question:

@@ -28,9 +28,12 @@ def is_noun(word: str, scene: Scene) -> bool:
 
 
 def asks_for(words: Sequence[str], scene: Scene) -> str:
-    """Return a question for words that an item has: "a marker?", "a green one?", "a big green mug?"."""
-    nouns = [word for word in words if is_noun(word, scene)]
-    said = [*(word for word in words if word not in nouns), *(nouns or ["one"])]
+    """Return a question for words that an item has: "a marker?", "a green one?", "a big green mug?"; colours last."""
+    nouns, colours = [word for word in words if is_noun(word, scene)], grammar("english").colours
+    said = [
+        *sorted((word for word in words if word not in nouns), key=lambda word: word in colours),
+        *(nouns or ["one"]),
+    ]
     article = "an" if said[0][0] in VOWELS else "a"
     return f"{article} {' '.join(said)}?"
 
