@@ -1,4 +1,4 @@
-"""The 2|I| + 1 actions of Section III-B; an item is named by its index in the scene."""
+"""The 2|I| + 1 actions of Section III-B, and questions of other kinds; an item is named by its index in the scene."""
 
 from __future__ import annotations
 
@@ -37,11 +37,26 @@ class Pick:
             object.__setattr__(self, "item", _index(self.item))
 
 
-def _index(item: object) -> int:
-    """Return NumPy's integers as Python's; how many items there are only the scene knows."""
-    if isinstance(item, bool) or not isinstance(item, int | Integral):
-        raise ActionError(f"found {shown(item)}, expected the index of an item, a whole number", field="item")
-    return int(item)
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """Ask a question of another kind than `Point`, by its number in `Problem.questions`.
+
+    Raises ActionError for what is no number.
+    """
+
+    question: int
+
+    def __post_init__(self) -> None:
+        if type(self.question) is not int:
+            object.__setattr__(self, "question", _index(self.question, "question"))
+
+
+def _index(index: object, of: str = "item") -> int:
+    """Return NumPy's integers as Python's; how many items or questions there are only the scene knows."""
+    if isinstance(index, bool) or not isinstance(index, int | Integral):
+        raise ActionError(f"found {shown(index)}, expected the index of an item, a whole number", field=of)
+    return int(index)
 
 
 Action: TypeAlias = Wait | Point | Pick
+AnyAction: TypeAlias = Action | Ask

@@ -13,6 +13,7 @@ import numpy as np
 from fetch_pomdp.core.action import Action, Wait
 from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.model import Model, Rewards
+from fetch_pomdp.core.questions.question import Question
 from fetch_pomdp.core.rays import LARGEST_EXACT, miss_chances, unit_directions
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.core.turns import POINTS, StepChances, constant_phases, phases_of
@@ -60,11 +61,24 @@ def constant_only(problem: Problem, what: str) -> None:
         raise ModelError(found, field="turns")
 
 
+def points_only(problem: Problem, what: str) -> None:
+    """Refuse questions of other kinds for what knows the paper's alone. Raises ModelError."""
+    if not problem.asks_points:
+        raise ModelError(
+            f'found questions of other kinds, expected none: {what} knows "this one?" alone', field="questions"
+        )
+
+
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Problem:
-    """A scene ready to compute with. Raises ModelError if the exact gesture likelihood is asked for too many items."""
+    """A scene ready to compute with, and what the robot may ask there.
+
+    questions: of whatever kind (`questions.candidates`); none stands for the paper's, `Point` at each item. Raises
+    ModelError if the exact gesture likelihood is asked for too many items, or for questions of another table.
+    """
 
     scene: Scene
+    questions: tuple[Question, ...] = ()
     words: tuple[str, ...] = field(init=False)  # all words of the scene, sorted: the "words" of Eq. 5
     word_index: Mapping[str, int] = field(init=False, repr=False)
     positions: Vector = field(init=False, repr=False)  # (n, 3), m
@@ -76,6 +90,10 @@ class Problem:
         if model.gesture_likelihood == "exact" and len(items) > LARGEST_EXACT:
             found = f"found 'exact' with {len(items)} items, expected at most {LARGEST_EXACT}, or 'eq7'"
             raise ModelError(found, field="gesture_likelihood")
+        for index, question in enumerate(self.questions):
+            if question.n_items != len(items):
+                found = f"found a question about {question.n_items} items, expected the {len(items)} of the scene"
+                raise ModelError(found, field=f"questions[{index}]")
         words = self.scene.words
         positions = np.array([item.position for item in items], dtype=np.float64)
         object.__setattr__(self, "words", words)
@@ -99,6 +117,23 @@ class Problem:
         """How many items there are, |I|."""
         return len(self.scene.items)
 
+    @property
+    def n_questions(self) -> int:
+        """How many questions there are to ask; the paper's, one an item, where none are given."""
+        return len(self.questions) or self.n_items
+
+    @property
+    def asks_points(self) -> bool:
+        """Whether its questions are the paper's: "this one?" about each item in scene order, answered by Table I."""
+        if not self.questions:
+            return True
+        if [question.item for question in self.questions] != list(range(self.n_items)):
+            return False
+        truth, own = self.model.p_truth, np.eye(self.n_items)
+        yes = truth * own + (1.0 - truth) * (1.0 - own)
+        given = np.stack([question.chances[0] for question in self.questions])
+        return bool(np.array_equal(given, yes)) and not any(question.shared for question in self.questions)
+
     def step_chances(self, action: Action, phase: int = 0) -> StepChances:
         """Return the chances of the step after an action, begun in a phase (`turns`).
 
@@ -113,7 +148,7 @@ class Problem:
         if self.model.gesture_likelihood == "exact":
             return self
         model = self.model.with_changes({"gesture_likelihood": "exact"})
-        return Problem(dataclasses.replace(self.scene, model=model))
+        return Problem(dataclasses.replace(self.scene, model=model), self.questions)
 
     def words_by_owners(self) -> dict[tuple[int, ...], list[int]]:
         """Return the words, by index, of each set of items that own them: words of the same owners say the same."""

@@ -16,6 +16,7 @@ from numpy.random import Generator
 from fetch_pomdp import checks
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Integers, Vector, on_all_cores
+from fetch_pomdp.core.planners.asking import Asked, AskingDecision, AskingPlanner
 from fetch_pomdp.core.planners.base import Decision, action_of, checked_asked, one_by_one, pick_values, whole_number
 from fetch_pomdp.core.planners.fitted.ahead import (
     Ahead,
@@ -33,7 +34,8 @@ from fetch_pomdp.core.planners.fitted.selection import selected
 from fetch_pomdp.core.planners.fitted.table import ValueTable
 from fetch_pomdp.core.planners.kernels import pick_value
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.problem import Problem, points_only
+from fetch_pomdp.core.questions.history import History
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import PlannerError
 
@@ -71,6 +73,9 @@ class FittedValue:
     The leading `ahead.MOST_ASKED` items' questions are valued, others are NaN. Raises PlannerError for a parameter out
     of range.
 
+    Where there is more to ask than "this one?" (`decide_asking`), its plans are those of `pointbased.PointBased`: a value
+    over the leading pair does not know which items are left, and so not what a question about twelve of them is worth.
+
     Choice: tables of more than MOST_FITTED items are left to ExactAnswers(), which no budget changes: its closed form
     decides in milliseconds, and a fit would take seconds.
     """
@@ -102,6 +107,7 @@ class FittedValue:
     ) -> Decision:
         """Choose the action with the highest value."""
         started = time.perf_counter()
+        points_only(problem, "`decide`, unlike `decide_asking`,")
         if problem.n_items > MOST_FITTED:
             return ExactAnswers().decide(problem, belief, asked, rng=rng, phase=phase)
         about = checked_asked(belief.probabilities, asked, problem, phase)
@@ -157,6 +163,24 @@ class FittedValue:
 
         on_all_cores(share, len(beliefs))
         return actions
+
+    def decide_asking(self, problem: Problem, belief: Belief, history: History, *, rng: Generator) -> AskingDecision:
+        """Choose among questions of all kinds; where they are the paper's, as `decide` does."""
+        if not problem.asks_points:
+            return self._of_all_kinds().decide_asking(problem, belief, history, rng=rng)
+        found = self.decide(problem, belief, history.last, rng=rng)
+        return AskingDecision.of(found.action, problem, (found.wait, found.point, found.pick))
+
+    def decide_many_asking(self, problem: Problem, beliefs: Vector, asked: Asked, *, rng: Generator) -> Integers:
+        """Choose among questions of all kinds for every belief; where they are the paper's, as `decide_many` does."""
+        if not problem.asks_points:
+            return self._of_all_kinds().decide_many_asking(problem, beliefs, asked, rng=rng)
+        return 1 + self.decide_many(problem, np.ascontiguousarray(beliefs), asked.last, rng=rng)
+
+    def _of_all_kinds(self) -> AskingPlanner:
+        from fetch_pomdp.core.planners.pointbased.planner import PointBased  # where it is used: it loads the reader
+
+        return PointBased(self.seed)
 
 
 def is_close(found: Ahead, pick: float) -> bool:
