@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from fetch_pomdp.adapters.speech.audio import Samples, Sound
-from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
+from fetch_pomdp.adapters.speech.bigram import COMMON, language_model, own_words
 from fetch_pomdp.adapters.speech.denoise import denoise
 from fetch_pomdp.adapters.speech.pronunciation import pronounce
 from fetch_pomdp.adapters.speech.recorded import SoundRecognizer
@@ -46,7 +46,7 @@ class SphinxTranscriber:
 
     def __init__(self, vocabulary: Sequence[str]) -> None:
         self._decoder = _decoder(vocabulary)
-        self._foreign = frozenset(COMMON).difference(vocabulary)
+        self._foreign = frozenset(COMMON).difference(own_words(vocabulary))
 
     def words(self, utterance: Utterance) -> list[Word]:
         """Return the words with their times on the clock of the utterance, whatever was heard before."""
@@ -123,9 +123,10 @@ def _decoder(vocabulary: Sequence[str]) -> Decoder:
         logger.warning("no pronunciation for %s: these words will not be heard", ", ".join(unknown))
     items = {phones for word in known for phones in dictionary[word]}
     common = [word for word in COMMON if items.isdisjoint(dictionary[word])]  # "meet" is no word beside an item "meat"
+    own = [word for word in own_words(known) if _learn(word, dictionary)]
     sounds = [
         f"{word}({number}) {phones}" if number > 1 else f"{word} {phones}"
-        for word in every_word(known, common)
+        for word in dict.fromkeys([*own, *common])
         for number, phones in enumerate(dictionary[word], 1)
     ]
     with tempfile.TemporaryDirectory() as folder:
