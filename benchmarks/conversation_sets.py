@@ -172,6 +172,37 @@ PLACES: Mapping[str, Sequence[tuple[Table, Sequence[str]]]] = {
 }  # fmt: skip
 
 
+# What is said near a robot and not to it: by a radio, and on the telephone.
+OTHERS: Mapping[str, Mapping[str, Sequence[str]]] = {
+    "tuning": {
+        "radio": (
+            "and now the news at eight o'clock", "the minister has said that taxes will not rise this year",
+            "heavy rain is expected in the north tonight", "the home team won by three goals to one",
+            "traffic is moving slowly on the bridge into town", "that was a song from their second record",
+            "scientists have found water on another planet", "stay with us for more after the break",
+        ),
+        "telephone": (
+            "hello it's me", "yes i will call you back in the morning", "no i have not seen her since monday",
+            "okay see you at the station then", "right and what did he say", "give me a minute i am writing it down",
+            "can you send me the address", "i left the keys on the table",
+        ),
+    },
+    "held-out": {
+        "radio": (
+            "good evening and welcome to the programme", "the price of bread has gone up again",
+            "police are looking for a man in a grey coat", "tomorrow will be dry with some sunshine in the west",
+            "the band will play in london next weekend", "our next guest has written a book about bees",
+            "the museum opens its doors to visitors on sunday", "voters go to the polls in two days",
+        ),
+        "telephone": (
+            "hi mum how are you", "no the doctor is not in before noon", "yes that would be lovely thank you",
+            "could you give me your number again", "i want to change my ticket please", "wait i can't hear you",
+            "okay i will bring the wine", "she left it on the kitchen table",
+        ),
+    },
+}  # fmt: skip
+
+
 HALVES: Mapping[str, Half] = {"tuning": _tuning(), "held-out": _held_out()}
 
 

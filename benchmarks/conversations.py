@@ -41,7 +41,30 @@ REPEATS = 9.0  # s in which neither speaks, after which the person asks again
 LONGEST = 60.0  # s
 
 
-class Person:
+class Still:
+    """A Robot to whom nothing happens."""
+
+    def point(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Ask about an item."""
+        return Outcome.DONE
+
+    def pick(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Hand an item over."""
+        return Outcome.DONE
+
+    def take_back(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Take an item back."""
+        return Outcome.DONE
+
+    def say(self, text: str) -> Outcome:  # noqa: ARG002
+        """Say something."""
+        return Outcome.DONE
+
+    def stop(self) -> None:
+        """Nothing that it does is stopped."""
+
+
+class Person(Still):
     """A person in a room: a Sound with their voice in it, and a Robot who does to them what robots do."""
 
     def __init__(self, plan: Conversation, room: Room, folder: Path) -> None:
@@ -73,22 +96,11 @@ class Person:
         self._say(text, ASKING + self._plan.thinks)
         return Outcome.DONE
 
-    def pick(self, item: Item) -> Outcome:  # noqa: ARG002
-        """Be given an item."""
-        return Outcome.DONE
-
-    def take_back(self, item: Item) -> Outcome:  # noqa: ARG002
-        """Give an item back."""
-        return Outcome.DONE
-
     def say(self, text: str) -> Outcome:
         """Be told something; ask again when the robot says that it listens."""
         if text == LISTENING and self._quiet_since < self._time:
             self._say(self._plan.again, 1.0)
         return Outcome.DONE
-
-    def stop(self) -> None:
-        """Nothing that the robot does is stopped."""
 
     def _say(self, text: str, later: float) -> None:
         clip = self._room.voice(said(text, self._plan.voice, self._folder))
