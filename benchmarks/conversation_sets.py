@@ -6,7 +6,7 @@ the ears were tuned and is measured last.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -78,6 +78,11 @@ def _table(*items: str) -> Table:
     return Table(scene, tuple(part[2] for part in parts), tuple(part[3] for part in parts))
 
 
+def _row(*items: str) -> Table:
+    """Make a table of a row of items from the person's left to the right, each by its words."""
+    return _table(*(f"{index}: {words}; {words}; {words}" for index, words in enumerate(items)))
+
+
 def _tuning() -> Half:
     kinds = ("bowl", "bowl", "marker", "marker", "spoon", "spoon")
     colours = {"bowl": "black bowl", "marker": "green marker", "spoon": "silver spoon"}
@@ -138,6 +143,64 @@ def _held_out() -> Half:
         "that restaurant was far too loud", "i have to finish this report by friday", "he is learning the piano now",
     )  # fmt: skip
     return Half(tables, sayings, UNHEARD, talk, seed=2)
+
+
+PLACES: Mapping[str, Sequence[tuple[Table, Sequence[str]]]] = {
+    "tuning": (
+        (_row("bowl black", "bowl black", "marker green", "marker green", "spoon silver", "spoon silver"), (
+            "the marker next to the spoon", "the leftmost bowl", "the second one from the right",
+            "hand me the spoon on the right", "i want the marker closest to the bowl",
+        )),
+        (_row("mug red", "mug blue", "whisk metal", "plate white", "mug green"), (
+            "the mug next to the plate", "can you give me the mug to the right of the red one",
+            "the first mug from the left", "not the blue mug", "the one between the blue mug and the plate",
+        )),
+    ),
+    "held-out": (
+        (_row("spoon metal", "bowl white", "spoon metal", "fork metal", "cup red"), (
+            "the spoon to the left of the bowl", "the one next to the cup", "bring me the spoon near the fork",
+        )),
+        (_row("block green", "block red", "block green", "block blue", "block green"), (
+            "the green one second from the left", "not the green one", "the block between the red one and the blue one",
+            "the rightmost green block",
+        )),
+        (_row("scissors steel", "stapler black", "tape clear", "stapler grey", "pencil yellow"), (
+            "the stapler to the right of the tape", "could you pass me the last one on the right",
+            "the stapler beside the pencil",
+        )),
+    ),
+}  # fmt: skip
+
+
+# What is said near a robot and not to it: by a radio, and on the telephone.
+OTHERS: Mapping[str, Mapping[str, Sequence[str]]] = {
+    "tuning": {
+        "radio": (
+            "and now the news at eight o'clock", "the minister has said that taxes will not rise this year",
+            "heavy rain is expected in the north tonight", "the home team won by three goals to one",
+            "traffic is moving slowly on the bridge into town", "that was a song from their second record",
+            "scientists have found water on another planet", "stay with us for more after the break",
+        ),
+        "telephone": (
+            "hello it's me", "yes i will call you back in the morning", "no i have not seen her since monday",
+            "okay see you at the station then", "right and what did he say", "give me a minute i am writing it down",
+            "can you send me the address", "i left the keys on the table",
+        ),
+    },
+    "held-out": {
+        "radio": (
+            "good evening and welcome to the programme", "the price of bread has gone up again",
+            "police are looking for a man in a grey coat", "tomorrow will be dry with some sunshine in the west",
+            "the band will play in london next weekend", "our next guest has written a book about bees",
+            "the museum opens its doors to visitors on sunday", "voters go to the polls in two days",
+        ),
+        "telephone": (
+            "hi mum how are you", "no the doctor is not in before noon", "yes that would be lovely thank you",
+            "could you give me your number again", "i want to change my ticket please", "wait i can't hear you",
+            "okay i will bring the wine", "she left it on the kitchen table",
+        ),
+    },
+}  # fmt: skip
 
 
 HALVES: Mapping[str, Half] = {"tuning": _tuning(), "held-out": _held_out()}

@@ -15,59 +15,61 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-import noises
-from conversation_sets import HALVES, Conversation, Half, conversations
+from conversation_sets import HALVES, Conversation, conversations
 from fetch_pomdp import Agent, Item, Outcome, Pick, Point, interact
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
 from fetch_pomdp.core.events import Acted, Event, Observed
 from fetch_pomdp.core.hearing import texts
 from fetch_pomdp.core.interaction import LISTENING
 from fetch_pomdp.core.language.answers import After
+from fetch_pomdp.core.language.reading.reader import Reader
 from fetch_pomdp.core.language.words import Meaning
-from noises import Floats
-from voices import RATE, TOOLS, missing_tools, said
+from rooms import Room, Samples, as_sound, missing, rooms
+from voices import RATE, said
 
-LOUDNESS = 2000.0  # of 32768, root mean square of what the person says
-SNR = 10.0  # dB
-REVERBERATION = 0.5  # s, T60
 ASKING = 1.8  # s, after which the robot has asked
 REPEATS = 9.0  # s in which neither speaks, after which the person asks again
 LONGEST = 60.0  # s
-MORE_TOOLS = {"festival": "text2wave"}  # packages of Debian, and the program in them that is needed
-
-Samples = NDArray[np.int16]
 
 
-@dataclass(frozen=True, slots=True)
-class Room:
-    """What is between a person and the ears. noise: a loop with a power of 1; response: the room's, or none."""
+class Still:
+    """A Robot to whom nothing happens."""
 
-    name: str
-    noise: Floats | None = None
-    snr: float = SNR  # dB
-    response: Floats | None = None
+    def point(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Ask about an item."""
+        return Outcome.DONE
+
+    def pick(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Hand an item over."""
+        return Outcome.DONE
+
+    def take_back(self, item: Item) -> Outcome:  # noqa: ARG002
+        """Take an item back."""
+        return Outcome.DONE
+
+    def say(self, text: str) -> Outcome:  # noqa: ARG002
+        """Say something."""
+        return Outcome.DONE
+
+    def stop(self) -> None:
+        """Nothing that it does is stopped."""
 
 
-class Person:
+class Person(Still):
     """A person in a room: a Sound with their voice in it, and a Robot who does to them what robots do."""
 
     def __init__(self, plan: Conversation, room: Room, folder: Path) -> None:
         self._plan, self._room, self._folder = plan, room, folder
-        self._heard = np.zeros(int((LONGEST + 30) * RATE))
-        if room.noise is not None:
-            loop = np.resize(np.roll(room.noise, -plan.seed * RATE), len(self._heard))
-            self._heard += loop * LOUDNESS * 10 ** (-room.snr / 20)
+        self._heard = room.silence(int((LONGEST + 30) * RATE), plan.seed)
         self._time = 0  # samples
         self._quiet_since = 0
         self._say(plan.request, plan.begins)
@@ -82,7 +84,7 @@ class Person:
         if self._time - self._quiet_since > REPEATS * RATE:
             self._say(self._plan.again, 0.1)
         self._time += count
-        return np.asarray(np.clip(np.round(self._heard[self._time - count : self._time]), -32768, 32767), np.int16)
+        return as_sound(self._heard[self._time - count : self._time])
 
     def point(self, item: Item) -> Outcome:
         """Be asked: answer by what is wanted."""
@@ -94,28 +96,14 @@ class Person:
         self._say(text, ASKING + self._plan.thinks)
         return Outcome.DONE
 
-    def pick(self, item: Item) -> Outcome:  # noqa: ARG002
-        """Be given an item."""
-        return Outcome.DONE
-
-    def take_back(self, item: Item) -> Outcome:  # noqa: ARG002
-        """Give an item back."""
-        return Outcome.DONE
-
     def say(self, text: str) -> Outcome:
         """Be told something; ask again when the robot says that it listens."""
         if text == LISTENING and self._quiet_since < self._time:
             self._say(self._plan.again, 1.0)
         return Outcome.DONE
 
-    def stop(self) -> None:
-        """Nothing that the robot does is stopped."""
-
     def _say(self, text: str, later: float) -> None:
-        clip = said(text, self._plan.voice, self._folder).astype(float)
-        clip *= LOUDNESS / math.sqrt(np.mean(clip**2))
-        if self._room.response is not None:
-            clip = noises.in_room(clip, self._room.response)
+        clip = self._room.voice(said(text, self._plan.voice, self._folder))
         start = max(self._time, self._quiet_since) + int(later * RATE)
         self._quiet_since = min(start + len(clip), len(self._heard))
         self._heard[start : start + len(clip)] += clip[: max(0, len(self._heard) - start)]
@@ -135,10 +123,17 @@ class Result:
     spent: float  # s of a core
 
 
-def played(plan: Conversation, room: Room, folder: Path, watch: Callable[[Event, Agent], None] | None = None) -> Result:
-    """Play a conversation. watch: is told each event."""
+def played(
+    plan: Conversation,
+    room: Room,
+    folder: Path,
+    *,
+    reader: Reader | None = None,
+    watch: Callable[[Event, Agent], None] | None = None,
+) -> Result:
+    """Play a conversation. reader: the robot's; watch: is told each event."""
     begun = time.process_time()
-    agent, person = Agent(plan.table.scene), Person(plan, room, folder)
+    agent, person = Agent(plan.table.scene, reader=reader), Person(plan, room, folder)
     ears = SphinxRecognizer(person, agent.scene.words)
     picked, asked, heard = None, list[int](), dict[int, Meaning]()
     for event in interact(agent, person, ears, None):
@@ -166,17 +161,6 @@ def played(plan: Conversation, room: Room, folder: Path, watch: Callable[[Event,
     )
 
 
-def rooms(half: Half, folder: Path) -> Iterator[Room]:
-    """Yield the rooms of a half: the noises of each half are others."""
-    rng = np.random.default_rng(half.seed)
-    yield Room("quiet")
-    yield Room("white noise", noises.white(rng))
-    yield Room("pink noise", noises.pink(rng))
-    yield Room("babble", noises.babble(rng, half.voices, half.talk, folder))
-    yield Room("music", noises.music(rng))
-    yield Room("echo", noises.pink(rng), 30.0, noises.echo(REVERBERATION))
-
-
 def table(results: Mapping[str, Sequence[Result]]) -> str:
     """Return the results as a table in Markdown."""
     head = "| room | conversations | right | wrong | nothing | against a no | questions | time | of a core |"
@@ -191,11 +175,6 @@ def table(results: Mapping[str, Sequence[Result]]) -> str:
         asked, seconds, spent = map(float, means)
         lines.append(f"| {name} | {count} | {shares} | {against} | {asked:.1f} | {seconds:.0f} s | {spent:.1f} s |")
     return "\n".join(lines)
-
-
-def missing() -> list[str]:
-    """Return the apt packages that are not installed."""
-    return [*missing_tools(TOOLS), *(package for package, program in MORE_TOOLS.items() if missing_tools([program]))]
 
 
 def main() -> int:

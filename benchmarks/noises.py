@@ -73,8 +73,11 @@ def music(rng: Generator) -> Floats:
     return _levelled(sound)
 
 
-def echo(reverberation: float) -> Floats:
-    """Return the impulse response of the room, the direct sound with power 1. reverberation: T60, s, by Sabine."""
+def echo(reverberation: float, source: tuple[float, float, float] = PERSON) -> Floats:
+    """Return the room's impulse response from a place (m) to the ears, the direct sound with power 1.
+
+    reverberation: T60, s, by Sabine.
+    """
     volume, surface = math.prod(ROOM), 2 * (ROOM[0] * ROOM[1] + ROOM[0] * ROOM[2] + ROOM[1] * ROOM[2])
     reflected = math.sqrt(1 - 0.161 * volume / (surface * reverberation))
     response = np.zeros(int(reverberation * RATE))
@@ -82,8 +85,8 @@ def echo(reverberation: float) -> Floats:
     for image in product(*(range(-far, far + 1) for far in reach)):
         for mirrored in product((0, 1), repeat=3):
             offset = [
-                (1 - 2 * mirror) * person + 2 * order * size - ear
-                for mirror, person, order, size, ear in zip(mirrored, PERSON, image, ROOM, EARS, strict=True)
+                (1 - 2 * mirror) * place + 2 * order * size - ear
+                for mirror, place, order, size, ear in zip(mirrored, source, image, ROOM, EARS, strict=True)
             ]
             distance = math.hypot(*offset)
             delay = int(distance / SOUND * RATE)

@@ -1,88 +1,125 @@
-"""Our recogniser against PocketSphinx's open English model, on one common set of synthetic voices and noise.
+"""Word errors of our recogniser, and of PocketSphinx's open English model, in the rooms of `conversations.py`.
 
-    python benchmarks/speech.py [--quick] [--json] [--cache FOLDER]  # 13 minutes of one core; --quick 4
+    python benchmarks/speech.py [--half held-out] [--count 72] [--quick] [--open] [--json] [--cache FOLDER]
 
-Word error: words put in, left out or changed, over words said, in sentences about the scene. Meaning error: sentences
-in which the set of item words and of response classes heard is not the set said. False words: item words and response
-classes heard in talk about other things, a sentence. The story: a request for the marker, a question, a "no";
-understood if the marker and the no, and nothing else, are heard in one recording.
+What people say in the conversations of a half, a request or an answer each, by its voices, about its tables. Word
+error: words put in, left out or changed, over words said. Item words: of those said that are words of the table's
+items, the share that was heard. Answers: of sentences of nothing but an answer, the share that was heard as that
+answer. False words: item words and answers heard in a sentence about other things. --open: PocketSphinx's open model
+of English beside ours, which takes four minutes of a core and more.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 
+import numpy as np
 import pocketsphinx
 
-from fetch_pomdp.adapters.speech.audio import open_raw, open_wav
-from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
-from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE
+from conversation_sets import HALVES, Half, conversations
+from fetch_pomdp.adapters.speech.audio import open_raw
+from fetch_pomdp.adapters.speech.recorded import SoundRecognizer
+from fetch_pomdp.adapters.speech.sphinx import SphinxTranscriber
+from fetch_pomdp.adapters.speech.stream import listened_for
+from fetch_pomdp.core.language.answers import After, lexicon
+from fetch_pomdp.core.language.words import Meaning
 from fetch_pomdp.core.scene import Scene
-from voices import RATE, SNRS, VOICES, Recording, missing_tools, read, record
+from rooms import Room, Samples, as_sound, missing, rooms
+from voices import AFTER, BEFORE, RATE, said
 
-IN_SCENE = (
-    "hand me the green marker", "the spoon", "could you give me the black bowl", "i want the silver spoon",
-    "yes", "no", "not that one", "the other one",
-)  # fmt: skip
-OUT_OF_SCENE = (
-    "what is the weather today", "the meeting starts at nine", "my brother lives in boston",
-    "please turn off the light",
-)  # fmt: skip
-STORY = ("hand me the marker", "no")
-QUICK_VOICES = ("espeak-en-us-175", "espeak-en-gb-130", "flite-slt", "flite-kal16")
+ANSWERS = {Meaning.YES, Meaning.NO}
+QUICK = 24  # sentences
 
-VOCABULARY = tuple(dict.fromkeys(word for item in Scene.load("ambiguous").items for word in item.vocabulary))
-CLASSES = {word: word for word in VOCABULARY} | dict.fromkeys(POSITIVE, "+") | dict.fromkeys(NEGATIVE, "-")
+Transcribe = Callable[[Samples, Scene], list[str]]
 
-Transcriber = Callable[[Path], list[str]]
+
+@dataclass(frozen=True, slots=True)
+class Sentence:
+    """What somebody says about a table, or about other things."""
+
+    text: str
+    voice: str
+    scene: Scene
+    answer: bool = False
+    meant: bool = True  # for the robot
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """What one recogniser got wrong at one signal-to-noise ratio."""
+    """What one recogniser got wrong in one room."""
 
     recogniser: str
-    snr: int | None  # dB; None is clean
-    sentences: int  # about the scene
+    room: str
+    sentences: int
     word_error: float
-    meaning_error: float
-    yes_no_right: float  # of "yes" and "no", share whose meaning was right
-    false_words: float  # item words and response classes a sentence of other talk
+    item_words: float
+    answers: float
+    false_words: float  # a sentence of other talk
     times_real_time: float
 
 
-def ours(path: Path) -> list[str]:
-    """Transcribe a file by the code a user runs."""
-    return [word.text for word in SphinxRecognizer(open_wav(path), VOCABULARY).hear(float("inf"))]
+def sentences(half: Half, count: int) -> list[Sentence]:
+    """Return requests and answers of a half in turn, and each sentence of its other talk."""
+    found: list[Sentence] = []
+    for index, plan in enumerate(conversations(half, count)):
+        text = (plan.request, plan.yes, plan.again, plan.no)[index % 4]
+        alone = plan.no not in {words.format(exact=plan.table.exact[plan.target]) for words in half.sayings.corrections}
+        found.append(Sentence(text, plan.voice, plan.table.scene, answer=index % 4 == 1 or (index % 4 == 3 and alone)))
+    tables = [table.scene for table in half.tables]
+    for index, text in enumerate(half.talk):
+        for turn in (0, 1):
+            voice = half.voices[(index + turn * len(half.talk)) % len(half.voices)]
+            found.append(Sentence(text, voice, tables[(index + turn) % len(tables)], meant=False))
+    return found
 
 
-def open_model() -> Transcriber:
-    """Return PocketSphinx as it comes: the whole file, the en-us model, its own dither against digital silence."""
+@cache
+def _transcriber(vocabulary: tuple[str, ...]) -> SphinxTranscriber:
+    return SphinxTranscriber(vocabulary)
+
+
+def ours(samples: Samples, scene: Scene) -> list[str]:
+    """Transcribe a sound by the code of `fetch --audio`."""
+    sound = open_raw(BytesIO(samples.astype("<i2").tobytes()))
+    ears = SoundRecognizer(sound, _transcriber(tuple(listened_for(scene))).words)
+    return [word.text for word in ears.hear(math.inf)]
+
+
+def open_model() -> Transcribe:
+    """Return PocketSphinx as it comes: the whole sound, the en-us model, its own dither against digital silence."""
     decoder = pocketsphinx.Decoder(dither=True, seed=1, loglevel="FATAL")
 
-    def transcribe(path: Path) -> list[str]:
+    def transcribe(samples: Samples, scene: Scene) -> list[str]:  # noqa: ARG001
+        decoder.reinit_feat()
         decoder.start_utt()
-        decoder.process_raw(read(path).tobytes(), full_utt=True)
+        decoder.process_raw(samples.tobytes(), full_utt=True)
         decoder.end_utt()
         return decoder.hyp().hypstr.split() if decoder.hyp() else []
 
     return transcribe
 
 
-def meaning(words: Iterable[str]) -> frozenset[str]:
-    """Return the item words and response classes among the words."""
-    return frozenset(CLASSES[word] for word in words if word in CLASSES)
+def sound_of(sentence: Sentence, room: Room, folder: Path, seed: int) -> Samples:
+    """Return a sentence in a room, with some of the room before and after it."""
+    clip = room.voice(said(sentence.text, sentence.voice, folder))
+    begin = int(BEFORE * RATE)
+    heard = room.silence(begin + len(clip) + int(AFTER * RATE), seed)
+    heard[begin : begin + len(clip)] += clip
+    return as_sound(heard)
 
 
-def edits(said: list[str], heard: list[str]) -> int:
+def edits(said: Sequence[str], heard: Sequence[str]) -> int:
     """Return the words to put in, leave out or change (Levenshtein)."""
     row = list(range(len(heard) + 1))
     for index, word in enumerate(said, 1):
@@ -92,88 +129,87 @@ def edits(said: list[str], heard: list[str]) -> int:
     return row[-1]
 
 
-def measure(name: str, transcribe: Transcriber, recordings: list[Recording]) -> Iterator[Row]:
-    """Yield a row for every signal-to-noise ratio."""
-    for snr in SNRS:
-        started = time.perf_counter()
-        heard = [(item.text, transcribe(item.path)) for item in recordings if item.snr == snr]
-        spent = time.perf_counter() - started
-        inside = [(text.split(), words) for text, words in heard if text in IN_SCENE]
-        outside = [words for text, words in heard if text in OUT_OF_SCENE]
-        answers = [(said, words) for said, words in inside if said in (["yes"], ["no"])]
-        yield Row(
-            recogniser=name,
-            snr=snr,
-            sentences=len(inside),
-            word_error=sum(edits(*pair) for pair in inside) / sum(len(said) for said, _ in inside),
-            meaning_error=1 - _understood(inside),
-            yes_no_right=_understood(answers),
-            false_words=sum(len(meaning(words)) for words in outside) / len(outside),
-            times_real_time=spent / sum(seconds(item.path) for item in recordings if item.snr == snr),
-        )
+def meaning(words: Sequence[str], scene: Scene) -> Meaning | None:
+    """Return what words mean as an answer to a question."""
+    return lexicon(scene.answers, scene.words).read(tuple(words), After.QUESTION).meaning
 
 
-def _understood(pairs: list[tuple[list[str], list[str]]]) -> float:
-    return sum(meaning(said) == meaning(heard) for said, heard in pairs) / len(pairs)
+def false_words(heard: Sequence[str], scene: Scene) -> int:
+    """Return how many words of items, and answers, were heard."""
+    return sum(word in scene.words for word in heard) + (meaning(heard, scene) in ANSWERS)
 
 
-def seconds(path: Path) -> float:
-    """Return the length of a WAV file."""
-    return len(read(path)) / RATE
+def measure(name: str, transcribe: Transcribe, room: Room, sounds: Sequence[tuple[Sentence, Samples]]) -> Row:
+    """Return how one recogniser hears sentences in a room."""
+    begun = time.process_time()
+    heard = [(sentence, transcribe(samples, sentence.scene)) for sentence, samples in sounds]
+    spent = time.process_time() - begun
+    meant = [(sentence, sentence.text.split(), words) for sentence, words in heard if sentence.meant]
+    answers = [meaning(words, each.scene) is meaning(text, each.scene) for each, text, words in meant if each.answer]
+    items = [_items(text, words, each.scene) for each, text, words in meant]
+    others = [false_words(words, each.scene) for each, words in heard if not each.meant]
+    return Row(
+        name,
+        room.name,
+        sentences=len(meant),
+        word_error=sum(edits(text, words) for _, text, words in meant) / sum(len(text) for _, text, _ in meant),
+        item_words=sum(found for found, _ in items) / sum(of for _, of in items),
+        answers=float(np.mean(answers)),
+        false_words=float(np.mean(others)),
+        times_real_time=spent / (sum(len(samples) for _, samples in sounds) / RATE),
+    )
 
 
-def story(folder: Path, voices: tuple[str, ...], snr: int) -> dict[str, list[str]]:
-    """Let every voice say the request and, in the same recording, the answer; return what our recogniser heard."""
-    heard = {}
-    for voice in voices:
-        samples = b"".join(
-            read(item.path).tobytes() for text in STORY for item in record([text], folder, [voice], [snr])
-        )
-        heard[voice] = [
-            word.text for word in SphinxRecognizer(open_raw(BytesIO(samples)), VOCABULARY).hear(float("inf"))
-        ]
-    return heard
+def _items(said: Sequence[str], heard: Sequence[str], scene: Scene) -> tuple[int, int]:
+    """Return how many item words that were said were heard, and how many were said."""
+    spoken = Counter(word for word in said if word in scene.words)
+    return (spoken & Counter(heard)).total(), spoken.total()
 
 
-def table(rows: list[Row]) -> str:
+def table(rows: Iterable[Row]) -> str:
     """Return the rows as a table in Markdown."""
     lines = [
-        "| recogniser | SNR | word error | meaning error | yes/no right | false words | times real time |",
-        "|---" * 7 + "|",
+        "| recogniser | room | sentences | word error | item words | answers | false words | real time |",
+        "|---" * 8 + "|",
     ]
     for row in rows:
-        snr = "clean" if row.snr is None else f"{row.snr} dB"
-        parts = (f"{share:.0%}" for share in (row.word_error, row.meaning_error, row.yes_no_right))
-        lines.append(
-            f"| {row.recogniser} | {snr} | {' | '.join(parts)} | {row.false_words:.2f} | {row.times_real_time:.2f} |"
-        )
+        parts = " | ".join(f"{share:.0%}" for share in (row.word_error, row.item_words, row.answers))
+        end = f"{row.false_words:.2f} | {row.times_real_time:.2f}"
+        lines.append(f"| {row.recogniser} | {row.room} | {row.sentences} | {parts} | {end} |")
     return "\n".join(lines)
+
+
+def measured(name: str, transcribe: Transcribe, half: Half, count: int, *, folder: Path) -> Iterator[Row]:
+    """Yield how a recogniser hears in each room."""
+    spoken = sentences(half, count)
+    for room in rooms(half, folder):
+        sounds = [(each, sound_of(each, room, folder, seed)) for seed, each in enumerate(spoken)]
+        yield measure(name, transcribe, room, sounds)
 
 
 def main() -> int:
     """Run the benchmark; 2 if a program that speaks is missing."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quick", action="store_true", help="4 voices instead of 14")
+    parser.add_argument("--half", choices=list(HALVES), default="held-out")
+    parser.add_argument("--count", type=int, default=72, help="sentences in each room")
+    parser.add_argument("--quick", action="store_true", help=f"{QUICK} sentences in each room")
+    parser.add_argument("--open", action="store_true", help="PocketSphinx's open model of English, too")
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     parser.add_argument("--cache", type=Path, help="folder that keeps the recordings for the next run")
-    arguments = parser.parse_args()
-    if missing := missing_tools():
-        print(f"not installed: {', '.join(missing)}; install with: apt install {' '.join(missing)}", file=sys.stderr)
+    options = parser.parse_args()
+    if packages := missing():
+        print(f"not installed: {', '.join(packages)}; install with: apt install {' '.join(packages)}", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory() as temporary:
-        folder = arguments.cache or Path(temporary)
-        voices = QUICK_VOICES if arguments.quick else VOICES
-        recordings = record(IN_SCENE + OUT_OF_SCENE, folder, voices)
-        recognisers = {"ours": ours, "open en-us": open_model()}
-        rows = [row for name, transcribe in recognisers.items() for row in measure(name, transcribe, recordings)]
-        told = story(folder, voices, snr=20)
-    right = sum(meaning(words) == meaning(" ".join(STORY).split()) for words in told.values())
-    if arguments.json:
-        print(
-            json.dumps({"rows": [asdict(row) for row in rows], "story": {"understood": right, "heard": told}}, indent=2)
-        )
-    else:
-        print(f"{table(rows)}\n\nStory at 20 dB: {right} of {len(told)} voices understood.")
+        folder = options.cache or Path(temporary)
+        count = QUICK if options.quick else options.count
+        recognisers = {"ours": ours} | ({"open model": open_model()} if options.open else {})
+        rows = [
+            row
+            for name, transcribe in recognisers.items()
+            for row in measured(name, transcribe, HALVES[options.half], count, folder=folder)
+        ]
+        print(json.dumps([asdict(row) for row in rows], indent=2) if options.json else table(rows))
     return 0
 
 

@@ -64,6 +64,10 @@ Audio = Annotated[
     typer.Option(metavar="F.wav", help="Speech: a WAV file, - for raw PCM on standard input, or mic."),
 ]
 Rate = Annotated[int, typer.Option(min=8000, max=192_000, help="Hz, of raw PCM: 16 bit, little-endian, mono.")]
+Played = Annotated[
+    str | None,
+    typer.Option(metavar="F.wav", help="What the robot's loudspeaker played during --audio; its echo is taken out."),
+]
 Skeleton = Annotated[
     str | None, typer.Option(metavar="F.jsonl", help="Head and wrists, JSON Lines; - for standard input.")
 ]
@@ -82,6 +86,7 @@ def fetch(
     rate: Rate = 16_000,
     ears: Ears = None,
     reader: ReaderName = READER,
+    played: Played = None,
     planner: PlannerName = None,
     depth: Depth = None,
     width: Width = None,
@@ -121,7 +126,15 @@ def fetch(
         typed = audio is None and skeleton is None
         if ears is not None and audio is None:
             raise InputError("found it without --audio, expected something to hear", field="--ears")
-        words, eyes = _typed(table, console) if typed else _sensors(table, audio, skeleton, rate, ears or "sphinx")
+        if played is not None and audio is None:
+            raise InputError("found it without --audio, expected something to hear", field="--played")
+        eyes: SkeletonSource | None
+        words: Recognizer | None
+        if typed:
+            words, eyes = _typed(table, console)
+        else:
+            eyes = _seeing(audio, skeleton)
+            words = _hearing(table, audio, rate, ears or "sphinx", played=played)
         prepare(agent.planner, agent.problem)
         record = open_files.enter_context(EventLog.create(log, header)) if log else None
         said: list[str] = []
@@ -149,31 +162,31 @@ def _typed(scene: Scene, console: Console) -> tuple[Recognizer, SkeletonSource]:
     return person, person
 
 
-def _sensors(
-    scene: Scene, audio: str | None, skeleton: str | None, rate: int, ears: str
-) -> tuple[Recognizer | None, SkeletonSource | None]:
+def _seeing(audio: str | None, skeleton: str | None) -> SkeletonSource | None:
     if audio == skeleton == STREAM:
         raise InputError("found - for both --audio and --skeleton, expected one of them from standard input")
-    eyes: SkeletonSource | None = None
-    if skeleton is not None:
-        opened = RecordedSkeleton.stream(sys.stdin.buffer) if skeleton == STREAM else RecordedSkeleton.open(skeleton)
-        eyes = opened
-    return _hearing(scene, audio, rate, ears), eyes
+    if skeleton is None:
+        return None
+    return RecordedSkeleton.stream(sys.stdin.buffer) if skeleton == STREAM else RecordedSkeleton.open(skeleton)
 
 
-def _hearing(scene: Scene, audio: str | None, rate: int, ears: str) -> Recognizer | None:
+def _hearing(scene: Scene, audio: str | None, rate: int, ears: str, *, played: str | None) -> Recognizer | None:
     if audio is None:
         return None
-    from fetch_pomdp.adapters.speech.audio import open_microphone, open_raw, open_wav
+    from fetch_pomdp.adapters.speech.audio import Sound, open_microphone, open_raw, open_wav
     from fetch_pomdp.adapters.speech.choice import recognizer
+    from fetch_pomdp.adapters.speech.echo import WithoutEcho
     from fetch_pomdp.adapters.speech.stream import listened_for
 
+    sound: Sound
     if audio == MICROPHONE:
         sound = open_microphone()
     elif audio == STREAM:
         sound = open_raw(sys.stdin.buffer, rate, "standard input")
     else:
         sound = open_wav(audio)
+    if played is not None:
+        sound = WithoutEcho(sound, open_wav(played))
     return recognizer(ears, sound, listened_for(scene))
 
 

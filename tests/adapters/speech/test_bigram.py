@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fetch_pomdp.adapters.speech.bigram import COMMON, every_word, language_model
+from fetch_pomdp.adapters.speech.bigram import COMMON, language_model, own_words
 from fetch_pomdp.core.language.words import NEGATIVE, POSITIVE
 
 WORDS = ["marker", "green", "spoon", "the", "weather"]  # with a determiner and a common word, as a scene may have them
@@ -48,7 +48,7 @@ def test_probabilities_sum_to_one_after_every_word(vocabulary: list[str], common
 def test_any_vocabulary_gives_a_distribution(vocabulary: list[str]) -> None:
     model = Arpa(language_model(vocabulary))
     assert {*vocabulary, *POSITIVE, *NEGATIVE, *COMMON} <= set(model.alone)
-    assert set(every_word(vocabulary)) == set(model.alone) - {"<s>", "</s>"}
+    assert {*own_words(vocabulary), *COMMON} == set(model.alone) - {"<s>", "</s>"}
     for history in ("<s>", "the", *vocabulary):
         total = math.fsum(model.probability(word, history) for word in model.alone if word != "<s>")
         assert total == pytest.approx(1, abs=2e-4)

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fetch_pomdp.core import discrete
 from fetch_pomdp.core.action import Ask, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core import discrete
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.questions.answers import yes_no

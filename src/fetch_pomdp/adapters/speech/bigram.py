@@ -12,6 +12,8 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
+from fetch_pomdp.adapters.speech.descriptions import Followers
+from fetch_pomdp.adapters.speech.descriptions import followers as describing
 from fetch_pomdp.core.language.words import POSITIVE, tokenize
 
 START, END = "<s>", "</s>"
@@ -25,7 +27,7 @@ REQUESTS = (
 )  # fmt: skip
 DETERMINERS = {"the": 6.0, "that": 1.0, "this": 1.0, "a": 1.0}  # and how often, relative to each other
 POINTERS = ("that one", "this one", "that", "this")
-PLACES = ("on the left", "on the right", "in the middle", "in front", "in the back", "behind", "over there", "next to")
+PLACES = ("on the left", "on the right", "in the middle", "in front", "in the back", "behind", "over there")
 ANSWERS = (
     *POSITIVE, "yes please", "yes that one", "no not that one", "not that one", "no the other one",
     "the other one", "other one",
@@ -35,6 +37,7 @@ MORE_ANSWERS = (  # such as `language.english` understands
     "nope", "nah", "not this one", "no it's not", "no it isn't", "no thanks", "no thank you", "that's not it",
     "wrong one", "not that",
 )  # fmt: skip
+DESCRIBED = 1.0  # how often a description by the grammar is said, against the simple ones below
 HESITATIONS = ("um", "uh", "er", "well")  # before a request, and before what it is about
 COMMON = tokenize(  # and none that sounds like one of our own, as know and show
     "about after again all also always am an and another any are around as ask at away bad be because been before "
@@ -73,9 +76,10 @@ def language_model(vocabulary: Iterable[str], common: Sequence[str] = COMMON) ->
     return "\n".join([*counts, "", "\\1-grams:", *unigrams, "", "\\2-grams:", *bigrams, "", "\\end\\", ""])
 
 
-def every_word(vocabulary: Iterable[str], common: Sequence[str] = COMMON) -> list[str]:
-    """Return all words of the language model: those that need a pronunciation."""
-    return [word for word in _unigrams(_links(tuple(dict.fromkeys(vocabulary))), common) if word != END]
+def own_words(vocabulary: Iterable[str]) -> list[str]:
+    """Return the words of requests, descriptions and answers: all of the language model but the common ones."""
+    links = _links(tuple(dict.fromkeys(vocabulary)))
+    return [word for word in dict.fromkeys(word for after in links.values() for word in after) if word != END]
 
 
 def _unigrams(links: Links, common: Sequence[str]) -> dict[str, float]:
@@ -122,5 +126,22 @@ def _links(vocabulary: Sequence[str]) -> Links:
     say((f"{word} {other}" for word in vocabulary for other in vocabulary if word != other), 0.5)
     say((f"{word} {tail} {END}" for word in vocabulary for tail in ("please", "one")), 0.2)
     say((f"{word} {place} {END}" for word in vocabulary for place in PLACES), 0.2)
-    say((f"next to the {word} {END}" for word in vocabulary), 0.03)
+    _describe(links, describing(vocabulary))
     return links
+
+
+def _describe(links: defaultdict[str, defaultdict[str, float]], described: Followers) -> None:
+    """Count what follows what in descriptions, said alone, after requests and after an answer."""
+    leads = (*(request.split()[-1] for request in REQUESTS), START, "no", "yes")
+    for word, begins, ends, after in zip(
+        described.words, described.first, described.last, described.follows, strict=True
+    ):
+        if begins > 0:
+            for lead in leads:
+                links[lead][word] += DESCRIBED * begins / len(leads)
+        for end, share in ((END, 0.8), ("please", 0.2)):
+            if ends > 0:
+                links[word][end] += DESCRIBED * share * ends
+        for follower, count in zip(described.words, after, strict=True):
+            if count > 0:
+                links[word][follower] += DESCRIBED * count

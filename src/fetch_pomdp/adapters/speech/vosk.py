@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from fetch_pomdp.adapters.speech.audio import RATE
-from fetch_pomdp.adapters.speech.bigram import every_word
+from fetch_pomdp.adapters.speech.bigram import own_words
 from fetch_pomdp.adapters.speech.utterances import SpeechSegment
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.errors import AudioError
@@ -27,7 +27,7 @@ class VoskTranscriber:
 
     def __init__(self, recognizer: Callable[[str], Any], vocabulary: Sequence[str]) -> None:
         self._recognizer = recognizer
-        self._known = json.dumps([*every_word(vocabulary, ()), UNKNOWN])
+        self._known = json.dumps([*own_words(vocabulary), UNKNOWN])
 
     @classmethod
     def open(cls, model: str | Path, vocabulary: Sequence[str]) -> Self:

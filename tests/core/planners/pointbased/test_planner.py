@@ -97,7 +97,9 @@ def test_it_earns_more_than_one_step_ahead_and_rules() -> None:
 def test_what_it_says_a_belief_is_worth_is_what_it_earns() -> None:
     """Its value is a lower bound, and nearly reached: with answers in their own step there is nothing beside it."""
     model = Model(p_answer_again=0.0, gesture_likelihood="exact")
-    problem = Problem(dataclasses.replace(SILENT.scene, model=model), candidates(MUGS, Asking(kinds=YES_OR_NO, shared=0.0)))
+    problem = Problem(
+        dataclasses.replace(SILENT.scene, model=model), candidates(MUGS, Asking(kinds=YES_OR_NO, shared=0.0))
+    )
     decision = PointBased().decide_asking(problem, Belief.uniform(8), History.none(problem), rng=default_rng(0))
     played = simulate_asking(problem, PointBased(), 20_000, 5)
     assert decision.value - 4 * played.standard_error < played.mean_return < decision.value + 0.3
