@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from asking.twelve import Array, Decide, World, told
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
+
+from asking.twelve import Array, Decide, World, told
 
 BELIEFS, SWEEPS = 700, 70
 

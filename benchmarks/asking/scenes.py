@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 from numpy.random import Generator, default_rng
-from planning.drawn import log_uniform, positions
 
 from fetch_pomdp import Item, Model, Rewards, Scene
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.questions.candidates import Asking, candidates
 from fetch_pomdp.core.questions.question import Kind
+from planning.drawn import log_uniform, positions
 
 LOOKED_AT = range(1000, 1200)  # seeds that were looked at while the planner was made
 HELD_OUT = range(1200, 1250)  # seeds that were opened once, at the end

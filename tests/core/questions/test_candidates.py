@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fetch_pomdp.core.discrete import Discrete
 from fetch_pomdp.core.action import Point, Wait
+from fetch_pomdp.core.discrete import Discrete
 from fetch_pomdp.core.language.reading.table import Table
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.problem import Problem

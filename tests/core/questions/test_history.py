@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fetch_pomdp.core import discrete
 from fetch_pomdp.core.action import Ask, Pick, Point, Wait
 from fetch_pomdp.core.belief import Belief
-from fetch_pomdp.core import discrete
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.questions.answers import yes_no
@@ -100,5 +100,5 @@ def test_numbers_and_actions() -> None:
         number_of(Ask(0), Problem(AMBIGUOUS))
     with pytest.raises(ActionError, match="found 26, expected 0 to 25"):
         action_at(26, ALL)
-    with pytest.raises(ActionError, match="field|question"):
+    with pytest.raises(ActionError, match="expected the index"):
         Ask("green")  # type: ignore[arg-type]

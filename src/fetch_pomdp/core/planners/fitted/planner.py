@@ -73,8 +73,8 @@ class FittedValue:
     The leading `ahead.MOST_ASKED` items' questions are valued, others are NaN. Raises PlannerError for a parameter out
     of range.
 
-    Where there is more to ask than "this one?" (`decide_asking`), its plans are those of `pointbased.PointBased`: a value
-    over the leading pair does not know which items are left, and so not what a question about twelve of them is worth.
+    Where there is more to ask than "this one?" (`decide_asking`), its plans are those of `pointbased.PointBased`: a
+    value over the leading pair does not know which items are left, and so not what a question that halves them is worth.
 
     Choice: tables of more than MOST_FITTED items are left to ExactAnswers(), which no budget changes: its closed form
     decides in milliseconds, and a fit would take seconds.
