@@ -74,7 +74,7 @@ class FittedValue:
     of range.
 
     Where there is more to ask than "this one?" (`decide_asking`), its plans are those of `pointbased.PointBased`: a
-    value over the leading pair does not know which items are left, and so not what a question that halves them is worth.
+    value over the leading pair does not know which items are left, and so not what a question that halves them tells.
 
     Choice: tables of more than MOST_FITTED items are left to ExactAnswers(), which no budget changes: its closed form
     decides in milliseconds, and a fit would take seconds.
