@@ -13,7 +13,7 @@ from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, u
 from fetch_pomdp.core.planners.asking import Asked, AskingPlanner
 from fetch_pomdp.core.planners.base import whole_number
 from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, Turn, hear, normalise, smoothed_mass
-from fetch_pomdp.core.problem import Problem, Tables, constant_only
+from fetch_pomdp.core.problem import Problem, Tables, nobody_live
 from fetch_pomdp.core.questions.question import Kind
 from fetch_pomdp.core.questions.rows import KINDS, Rows, chance_after, rows_of
 from fetch_pomdp.core.simulation import MOST_STEPS
@@ -71,7 +71,7 @@ def simulate_asking(problem: Problem, planner: AskingPlanner, episodes: int, see
     MOST_STEPS waits and questions the robot picks what it holds likeliest.
     """
     whole_number(episodes, 1, 10**9, "episodes")
-    constant_only(problem, "a simulation of questions")
+    nobody_live(problem, "a simulation of questions")
     robot = np.random.default_rng(whole_number(seed, 0, 2**63 - 1, "seed"))
     streams = np.random.default_rng((seed, 1)).integers(2**63, size=episodes, dtype=np.uint64)
     played = AskingInteractions.begin(np.arange(episodes) % problem.n_items, streams, problem)

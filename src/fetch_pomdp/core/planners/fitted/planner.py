@@ -34,7 +34,7 @@ from fetch_pomdp.core.planners.fitted.selection import selected
 from fetch_pomdp.core.planners.fitted.table import ValueTable
 from fetch_pomdp.core.planners.kernels import pick_value
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
-from fetch_pomdp.core.problem import Problem, points_only
+from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.questions.history import History
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import PlannerError
@@ -107,7 +107,6 @@ class FittedValue:
     ) -> Decision:
         """Choose the action with the highest value."""
         started = time.perf_counter()
-        points_only(problem, "`decide`, unlike `decide_asking`,")
         if problem.n_items > MOST_FITTED:
             return ExactAnswers().decide(problem, belief, asked, rng=rng, phase=phase)
         about = checked_asked(belief.probabilities, asked, problem, phase)
