@@ -15,7 +15,7 @@ from fetch_pomdp.core.questions.question import Kind
 from fetch_pomdp.core.questions.simulation import simulate_asking
 from planning import Record
 
-SIZES = (2, 3, 4, 6, 8, 12, 16, 24, 32, 50)
+SIZES = (2, 3, 4, 6, 8, 12, 16, 24, 36, 50)
 SETS = {
     "this one?": frozenset({Kind.POINT}),
     "and attributes": frozenset({Kind.POINT, Kind.ATTRIBUTE, Kind.ATTRIBUTES}),
