@@ -6,6 +6,7 @@ import math
 import time
 from typing import Any
 
+from fetch_pomdp.core.planners.asking import AskingPlanner
 from fetch_pomdp.core.planners.baselines.asking import InformationGainAsking, OneStepAsking, tuned
 from fetch_pomdp.core.planners.pointbased.planner import PointBased, solution
 from fetch_pomdp.core.problem import Problem
@@ -20,7 +21,7 @@ def contest(problem: Problem, episodes: int, seed: int) -> dict[str, Any]:
     solution(problem, PointBased().seed)
     seconds = time.perf_counter() - start
     planner = simulate_asking(problem, PointBased(), episodes, seed)
-    others = {
+    others: dict[str, AskingPlanner] = {
         "one step ahead": OneStepAsking(),
         "thresholds": tuned(problem, TUNED_ON + seed),
         "information gain": InformationGainAsking(),

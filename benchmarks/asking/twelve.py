@@ -38,6 +38,7 @@ class World:
 
     @property
     def n(self) -> int:
+        """How many items there are."""
         return self.problem.n_items
 
 
@@ -143,7 +144,7 @@ def told(of: World, beliefs: Array) -> Array:
     """Return what each question tells of each belief, in bits, rays and silence included, (m, k)."""
 
     def entropy(p: Array) -> Array:
-        return -(p * np.log2(np.maximum(p, 1e-300))).sum(axis=-1)
+        return np.asarray(-(p * np.log2(np.maximum(p, 1e-300))).sum(axis=-1))
 
     found = []
     for o in of.o[:-1]:

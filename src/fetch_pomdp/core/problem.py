@@ -55,6 +55,12 @@ class Tables(NamedTuple):
 
 
 def constant_only(problem: Problem, what: str) -> None:
+    """Refuse live people, and questions of other kinds, for what knows the paper's model alone. Raises ModelError."""
+    nobody_live(problem, what)
+    points_only(problem, what)
+
+
+def nobody_live(problem: Problem, what: str) -> None:
     """Refuse live people for what knows the paper's constant chances alone. Raises ModelError."""
     if problem.model.turns is not None:
         found = f"found live people, expected none: {what} knows the paper's constant chances of speaking and pointing"
@@ -84,6 +90,7 @@ class Problem:
     positions: Vector = field(init=False, repr=False)  # (n, 3), m
     log_smoothing: Vector = field(init=False, repr=False)  # (n,), log of alpha / (|vocab| + alpha |words|)
     tables: Tables = field(init=False, repr=False)
+    asks_points: bool = field(init=False)  # whether its questions are the paper's: Table I of each item in scene order
 
     def __post_init__(self) -> None:
         items, model = self.scene.items, self.scene.model
@@ -101,6 +108,7 @@ class Problem:
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "tables", self._tables())
         object.__setattr__(self, "log_smoothing", np.log(model.alpha * self.tables.smoothing))
+        object.__setattr__(self, "asks_points", self._asks_points())
 
     @property
     def model(self) -> Model:
@@ -121,18 +129,6 @@ class Problem:
     def n_questions(self) -> int:
         """How many questions there are to ask; the paper's, one an item, where none are given."""
         return len(self.questions) or self.n_items
-
-    @property
-    def asks_points(self) -> bool:
-        """Whether its questions are the paper's: "this one?" about each item in scene order, answered by Table I."""
-        if not self.questions:
-            return True
-        if [question.item for question in self.questions] != list(range(self.n_items)):
-            return False
-        truth, own = self.model.p_truth, np.eye(self.n_items)
-        yes = truth * own + (1.0 - truth) * (1.0 - own)
-        given = np.stack([question.chances[0] for question in self.questions])
-        return bool(np.array_equal(given, yes)) and not any(question.shared for question in self.questions)
 
     def step_chances(self, action: Action, phase: int = 0) -> StepChances:
         """Return the chances of the step after an action, begun in a phase (`turns`).
@@ -157,6 +153,16 @@ class Problem:
             owners = self.tables.word_items[self.tables.word_starts[word] : self.tables.word_starts[word + 1]]
             found.setdefault(tuple(owners.tolist()), []).append(word)
         return found
+
+    def _asks_points(self) -> bool:
+        if not self.questions:
+            return True
+        if [question.item for question in self.questions] != list(range(self.n_items)):
+            return False
+        truth, own = self.model.p_truth, np.eye(self.n_items)
+        yes = truth * own + (1.0 - truth) * (1.0 - own)
+        given = np.stack([question.chances[0] for question in self.questions])
+        return bool(np.array_equal(given, yes)) and not any(question.shared for question in self.questions)
 
     def _tables(self) -> Tables:
         model, rewards, items = self.model, self.rewards, self.scene.items

@@ -20,7 +20,7 @@ from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, o
 from fetch_pomdp.core.generative import State, reward, step
 from fetch_pomdp.core.planners.base import Planner, decide_many, whole_number
 from fetch_pomdp.core.planners.kernels import NOBODY, live_step, turn_of
-from fetch_pomdp.core.problem import Problem, Tables
+from fetch_pomdp.core.problem import Problem, Tables, points_only
 
 MOST_STEPS = 30  # waits and questions, after which the robot picks whatever it holds likeliest
 MOST_SIDE_BY_SIDE = 16_384  # episodes
@@ -144,6 +144,7 @@ def simulate(problem: Problem, planner: Planner, episodes: int, seed: int) -> Su
     is why `run_episode`, in plain Python, plays other episodes of the same distribution.
     """
     whole_number(episodes, 1, 10**9, "episodes")
+    points_only(problem, "`simulate`, unlike `simulate_asking`,")
     robot = np.random.default_rng(whole_number(seed, 0, 2**63 - 1, "seed"))
     people = np.random.default_rng((seed, 1))
     side = max(1, min(MOST_SIDE_BY_SIDE, MOST_BELIEFS // problem.n_items))

@@ -111,7 +111,7 @@ def test_information_is_the_entropy_that_an_answer_takes(question: Question, dat
     belief = weights / weights.sum()
 
     def entropy(p: np.ndarray) -> float:
-        return -sum(x * math.log2(x) for x in p if x > 0)
+        return -math.fsum(x * math.log2(x) for x in p if x > 0)
 
     after = 0.0
     for row in question.chances:

@@ -19,7 +19,7 @@ from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.explanation import Explanation
 from fetch_pomdp.core.planners.kernels import NOBODY
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.problem import Problem, points_only
 from fetch_pomdp.errors import PlannerError
 
 MOST_DEPTH, MOST_WIDTH = 20, 1_000_000
@@ -127,6 +127,7 @@ def checked_asked(probabilities: Vector, asked: int | None, problem: Problem, ph
     if not 0 <= phase < len(problem.tables.begun):
         expected = f"expected 0 to {len(problem.tables.begun) - 1}"
         raise PlannerError(f"found {phase!r}, {expected} for the problem's model", field="phase")
+    points_only(problem, "`decide`, unlike `decide_asking`,")
     about = NOBODY if asked is None else asked
     if len(probabilities) != problem.n_items or not NOBODY <= about < problem.n_items:
         found = f"found a belief over {len(probabilities)} items and a question about item {asked}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ from fetch_pomdp.core.compiled import Integers, RandomState, Vector, compiled, u
 from fetch_pomdp.core.planners.asking import Asked, AskingPlanner
 from fetch_pomdp.core.planners.base import whole_number
 from fetch_pomdp.core.planners.kernels import ASKED, NOBODY, WAITED, Turn, hear, normalise, smoothed_mass
-from fetch_pomdp.core.problem import Problem, Tables, constant_only
+from fetch_pomdp.core.problem import Problem, Tables, nobody_live
 from fetch_pomdp.core.questions.question import Kind
 from fetch_pomdp.core.questions.rows import KINDS, Rows, chance_after, rows_of
 from fetch_pomdp.core.simulation import MOST_STEPS
@@ -71,20 +71,28 @@ def simulate_asking(problem: Problem, planner: AskingPlanner, episodes: int, see
     MOST_STEPS waits and questions the robot picks what it holds likeliest.
     """
     whole_number(episodes, 1, 10**9, "episodes")
-    constant_only(problem, "a simulation of questions")
+    nobody_live(problem, "a simulation of questions")
     robot = np.random.default_rng(whole_number(seed, 0, 2**63 - 1, "seed"))
     streams = np.random.default_rng((seed, 1)).integers(2**63, size=episodes, dtype=np.uint64)
     played = AskingInteractions.begin(np.arange(episodes) % problem.n_items, streams, problem)
-    rows, active = rows_of(problem), np.arange(episodes)
+
+    def decide(active: Integers, asked: Asked) -> Integers:
+        return planner.decide_many_asking(problem, played.beliefs[active], asked, rng=robot)
+
+    played_out(problem, played, decide)
+    return _summary(played)
+
+
+def played_out(problem: Problem, played: AskingInteractions, decide: Callable[[Integers, Asked], Integers]) -> None:
+    """Play interactions to their ends; `decide` returns the actions, (j,), of those that go on, (j,)."""
+    rows, active = rows_of(problem), np.arange(len(played.desired))
     for _ in range(MOST_STEPS):
-        asked = Asked(played.last[active], played.answers[active])
-        actions = planner.decide_many_asking(problem, played.beliefs[active], asked, rng=robot)
+        actions = decide(active, Asked(played.last[active], played.answers[active]))
         _advance(active, actions, played, rows, problem.tables)
         active = active[played.over[active] == 0]
         if not len(active):
-            break
+            return
     _advance(active, 1 + problem.n_questions + played.beliefs[active].argmax(axis=1), played, rows, problem.tables)
-    return _summary(played)
 
 
 def _summary(played: AskingInteractions) -> AskingSummary:

@@ -12,7 +12,7 @@ from fetch_pomdp.core.planners.pointbased.backup import Steps, backup, best_vect
 from fetch_pomdp.core.planners.pointbased.solve import memory_for, no_vectors, solved
 from fetch_pomdp.core.planners.pointbased.steps import merged
 from fetch_pomdp.core.questions.rows import Rows
-from tests.oracles.asking import Quiz, question_value, value
+from tests.oracles.quiz import Quiz, question_value, value
 
 TRUTH, ANSWERED = 0.95, 0.9
 HOLDS = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [1, 1, 0, 0], [1, 0, 1, 0]])  # two points, two attributes
@@ -58,25 +58,25 @@ def test_one_step_ahead_of_picks_is_enumeration(weights: list[float]) -> None:
         )
 
 
-def test_plans_reach_the_value_of_five_questions() -> None:
+def test_plans_reach_the_value_of_four_questions() -> None:
     """The oracle's plans have an end; those of the solver have none, and lose SLACK where others nearly match."""
     found = solved(steps(), 0)
     memory = memory_for(steps(), 4)
     for belief in ([0.25] * 4, [0.4, 0.3, 0.2, 0.1], [0.5, 0.5, 0.0, 0.0], [0.05, 0.05, 0.45, 0.45]):
         reached, _ = backup(np.array(belief), steps(), found, memory)
-        assert reached == pytest.approx(value(belief, 5, QUIZ), abs=0.1)
-        assert reached <= value(belief, 6, QUIZ) + 0.02
+        assert reached == pytest.approx(value(belief, 4, QUIZ), abs=0.1)
+        assert reached <= value(belief, 5, QUIZ) + 0.02
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(weights=beliefs)
 def test_plans_are_worth_what_they_say(weights: list[float]) -> None:
-    """No plan is worth more than six questions, wherever it is used."""
+    """No plan is worth much more than the best with four questions, wherever it is used."""
     belief = np.array(weights) / sum(weights)
     memory = memory_for(steps(), 4)
     best = best_vector(belief, PLANS, memory)
     assert memory.scores[best] == pytest.approx(float((belief @ PLANS.values[:, : PLANS.size[0]]).max()), abs=1e-4)
-    assert memory.scores[best] <= value(belief.tolist(), 5, QUIZ) + 0.05
+    assert memory.scores[best] <= value(belief.tolist(), 4, QUIZ) + 0.05
 
 
 PLANS = solved(steps(), 1)

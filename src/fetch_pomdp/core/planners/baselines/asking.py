@@ -28,7 +28,7 @@ from fetch_pomdp.errors import PlannerError
 
 PICKS = (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 0.98)
 ENTROPIES = (0.7, 1.0, 1.5, 2.0, 3.0, 99.0)  # bits
-HALVINGS = ((300, 16), (1_500, 5), (6_000, 1))  # episodes, and settings kept
+HALVINGS = ((150, 16), (800, 5), (3_000, 1))  # episodes, and settings kept
 
 
 class _Many(Protocol):

@@ -34,7 +34,7 @@ from fetch_pomdp.core.planners.fitted.selection import selected
 from fetch_pomdp.core.planners.fitted.table import ValueTable
 from fetch_pomdp.core.planners.kernels import pick_value
 from fetch_pomdp.core.planners.search.planner import ExactAnswers
-from fetch_pomdp.core.problem import Problem, points_only
+from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.questions.history import History
 from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import PlannerError
@@ -73,8 +73,8 @@ class FittedValue:
     The leading `ahead.MOST_ASKED` items' questions are valued, others are NaN. Raises PlannerError for a parameter out
     of range.
 
-    Where there is more to ask than "this one?" (`decide_asking`), its plans are those of `pointbased.PointBased`: a value
-    over the leading pair does not know which items are left, and so not what a question about twelve of them is worth.
+    Where there is more to ask than "this one?" (`decide_asking`), its plans are those of `pointbased.PointBased`: a
+    value over the leading pair does not know which items are left, and so not what a question that halves them tells.
 
     Choice: tables of more than MOST_FITTED items are left to ExactAnswers(), which no budget changes: its closed form
     decides in milliseconds, and a fit would take seconds.
@@ -107,7 +107,6 @@ class FittedValue:
     ) -> Decision:
         """Choose the action with the highest value."""
         started = time.perf_counter()
-        points_only(problem, "`decide`, unlike `decide_asking`,")
         if problem.n_items > MOST_FITTED:
             return ExactAnswers().decide(problem, belief, asked, rng=rng, phase=phase)
         about = checked_asked(belief.probabilities, asked, problem, phase)

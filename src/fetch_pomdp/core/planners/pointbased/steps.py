@@ -12,7 +12,7 @@ import numpy as np
 from fetch_pomdp.core.compiled import Vector
 from fetch_pomdp.core.discrete import Discrete
 from fetch_pomdp.core.planners.pointbased.backup import Steps
-from fetch_pomdp.core.problem import Problem
+from fetch_pomdp.core.problem import Problem, nobody_live
 from fetch_pomdp.core.questions.rows import Rows
 
 MOST_OUTCOMES = 24
@@ -39,7 +39,8 @@ def outcomes_of(problem: Problem) -> Vector:
 
     The first is silence, with what tells as little; columns sum to 1.
     """
-    classes = Discrete(problem)
+    nobody_live(problem, "a plan of questions")
+    classes = Discrete(Problem(problem.scene))
     still, pointing = classes.gestures[:, :1], classes.gestures[:, 1:]
     return merged(np.concatenate([(classes.words * still).T, pointing.T]), MOST_OUTCOMES)
 
