@@ -193,6 +193,11 @@ def _between(_between: Any, *landmarks: Any) -> Parts | None:
     return None if any(map(_empty, found)) else (Between(*found),)
 
 
+def _between_person(landmark: Landmark, person: str) -> Parts | None:
+    """As in "between the bowl and me": in front of the bowl, as that person sees it."""
+    return None if _empty(landmark) else (Relation("in front of", landmark, Person(person)),)
+
+
 def _middle_between(_middle: Parts, _of: str, group: Landmark) -> Parts | None:
     """As in "in the middle of the two bowls", which is between them."""
     if not isinstance(group, Description):
@@ -306,6 +311,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "negation": lambda _, parts: (Not(parts[0] if len(parts) == 1 else Description(parts)),),
     "negation_of": _negation_of,
     "joined": lambda first, _and, second: (*first, *second),
+    "joined_on": lambda first, second: (*first, *second),
     "relation": lambda name: (name, False),
     "directly": lambda _, relation: (relation[0], True),
     "directly3": lambda _to, _directly, relation: (relation[0], True),
@@ -319,6 +325,8 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "having_both": _having_both,
     "between_two": _between,
     "between": _between,
+    "between_person": lambda _between, landmark, _and, person: _between_person(landmark, person),
+    "between_person_first": lambda _between, person, _and, landmark: _between_person(landmark, person),
     "within": _within,
     "side_within": _side_within,
     "seen": lambda person: (Seen(Person(person)),),

@@ -160,8 +160,9 @@ def _clause(kind: str, words: Sequence[str], vocabulary: Vocabulary, grammar: Gr
     skips = [0.1 if said and leaves else 0.0 for leaves, said in zip(here, noise, strict=True)]
     for start, end, category, value in (leaf for leaves in here for leaf in leaves):
         if (category, value) != ("num", "1"):
+            said = sum(not noise[place] for place in range(start, end))
             for place in range(start, end):
-                cost = SKIPPED.get(category, CONTENT) / (end - start)
+                cost = SKIPPED.get(category, CONTENT) / max(said, 1)
                 skips[place] = skips[place] if noise[place] else max(skips[place], cost)
     unknown = []
     for place, word in enumerate(known):
