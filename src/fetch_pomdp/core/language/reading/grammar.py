@@ -45,6 +45,7 @@ class Grammar:
 
     language: str
     noise: frozenset[str]
+    determiners: frozenset[str]  # those of the noise that begin a description
     endings: tuple[tuple[str, str], ...]  # of inflected words, and what stands in their place in a dictionary
     lexicon: Mapping[tuple[str, ...], tuple[Leaf, ...]]
     synonyms: Mapping[str, tuple[str, ...]]  # of a word, those that a table may have in its place
@@ -92,6 +93,7 @@ def grammar(language: str) -> Grammar:
     return Grammar(
         data["language"],
         frozenset(data["noise"].split()),
+        frozenset(data["determiners"].split()),
         tuple((ending, instead) for ending, _, instead in (each.partition("=") for each in data["endings"].split())),
         {words: tuple(dict.fromkeys(leaves)) for words, leaves in lexicon.items()},
         _synonyms(data),
