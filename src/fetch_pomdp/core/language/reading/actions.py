@@ -39,6 +39,7 @@ from fetch_pomdp.core.language.reading.form import (
 Parts = tuple[Form, ...]
 Landmark = Description | Anaphor
 IT = Anaphor()
+SHAPES = ("row", "column")  # of groups
 OF_SIDES: Mapping[str, str] = {
     "left": "left of", "right": "right of", "front": "in front of", "back": "behind", "top": "above",
     "bottom": "below", "west": "left of", "east": "right of",
@@ -252,8 +253,12 @@ def _same_again(_and: str, noun: Landmark) -> Parts | None:
     return noun.parts or None
 
 
-def _cluster_of(_group: str, _of: str, noun: Landmark) -> Description | None:
-    return noun.plus(Cluster()) if isinstance(noun, Description) else None
+def _cluster(shape: str) -> Cluster:
+    return Cluster(shape if shape in SHAPES else "")
+
+
+def _cluster_of(shape: str, _of: str, noun: Landmark) -> Description | None:
+    return noun.plus(_cluster(shape)) if isinstance(noun, Description) else None
 
 
 def _words(landmark: Landmark) -> bool:
@@ -284,7 +289,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "nearest_before": lambda whom, _near: _by(whom, far=False),
     "nearest_before3": lambda _to, whom, _near: _by(whom, far=False),
     "farthest_before3": lambda _from, whom, _far: _by(whom, far=True),
-    "cluster_named": lambda _, noun: noun.plus(Cluster()),
+    "cluster_named": lambda shape, noun: noun.plus(_cluster(shape)),
     "toward": _toward,
     "toward_first": lambda from_, side, _to, _other: _toward(from_, side),
     "within3": lambda _, of, group: _within(of, group),
@@ -300,7 +305,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "alone2": lambda _, __: (Alone(),),
     "only": lambda _: (Count(1),),
     "crowd": lambda _: (Crowded(),),
-    "together": lambda _: (Cluster(),),
+    "together": lambda shape: (_cluster(shape),),
     "middle": lambda _: Middle(),
     "middle_of": _middle_of,
     "middle_between": _middle_between,
@@ -339,7 +344,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "middle_among": lambda middle, group: _middle_in(middle, "", group),
     "count": _count,
     "number": lambda number: None if number == "1" else Description((Count(int(number)),)),
-    "cluster": lambda _: Description((Cluster(),)),
+    "cluster": lambda shape: Description((_cluster(shape),)),
     "anaphor": lambda _: IT,
     "anaphors": lambda _: Anaphor(plural=True),
     "the_same": lambda _: Description((Same(),)),
@@ -354,7 +359,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "one_of": lambda _, __, group: Description((Within(group),)),
     "some_of": _some_of,
     "cluster_of": _cluster_of,
-    "cluster_after": lambda noun, _: noun.plus(Cluster()),
+    "cluster_after": lambda noun, shape: noun.plus(_cluster(shape)),
     "more": _more,
     "union": _union,
 }

@@ -133,7 +133,7 @@ class Denotation:
 
     def _groups(self, said: Description, depth: int) -> tuple[Array, Array]:
         hard = np.ones(self.table.size)
-        number = None
+        number, shape = None, ""
         holds: Array = np.ones((1, 1, self.table.size))
         ranking: list[Form] = []
         for part in said.parts:
@@ -142,7 +142,7 @@ class Denotation:
             elif isinstance(part, Count):
                 number = part.number
             elif isinstance(part, Cluster):
-                continue
+                shape = shape or part.shape
             elif isinstance(part, Within) and isinstance(part.group, Description):
                 holds = holds * np.maximum(self.of(part.group, depth + 1), self.w.group_outside)
             elif ranks(part):
@@ -150,17 +150,19 @@ class Denotation:
             else:
                 holds = holds * self._part(part, depth)
         candidates = hard > 0.3 * max(float(hard.max()), 1e-9)
-        found = self._sets(candidates, number)
+        found = self._sets(candidates, number, shape)
         holds = holds * np.where(candidates, 1.0, 1e-6)
         for part in ranking:
             holds = holds * self._rank(part, degrees.share(holds), depth, False)
         return self._chances(found, holds)
 
-    def _sets(self, candidates: Array, number: int | None) -> Groups:
-        key = ("sets", candidates.tobytes(), number)
-        found = self.table.kept.get(key)
+    def _sets(self, candidates: Array, number: int | None, shape: str) -> Groups:
+        table, key = self.table, ("sets", candidates.tobytes(), number, shape)
+        found = table.kept.get(key)
         if found is None:
-            found = self.table.kept[key] = groups(candidates, number, self.table.distances)
+            across = {"row": table.away, "column": table.right}.get(shape)
+            along = None if across is None else across[SPEAKER] * table.spread / table.spacing
+            found = table.kept[key] = groups(candidates, number, table.distances, along)
         return found
 
     def _chances(self, found: Groups, holds: Array) -> tuple[Array, Array]:
