@@ -27,7 +27,7 @@ SKIPPED = {
     "have": 0.4, "n": 0.6, "person": 1.0, "poss": 0.8, "verb": 0.1, "look": 0.2, "more": 0.1, "skip": 0.5, "away": 0.4,
     "its": 0.4, "them": 0.5, "those": 0.5,
 }  # fmt: skip
-NOUNS = ("w", "n")  # categories of words for items, which no "the" follows in the same description
+ENDS = ("w", "n", "together", "alone", "crowd")  # categories of words that no "the" follows in the same description
 CONTENT = 1.6  # and of any other
 
 
@@ -155,7 +155,7 @@ def _clause(kind: str, words: Sequence[str], vocabulary: Vocabulary, grammar: Gr
         for leaves in here
         for start, end, category, value in leaves
         for stop in _stops(end, here, empty, begins)
-        if category not in NOUNS or not any(begins[end:stop])
+        if category not in ENDS or not any(begins[end:stop])
     ]
     tokens += [
         Token(place, stop, "det", word)
