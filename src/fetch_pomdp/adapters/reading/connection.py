@@ -39,8 +39,7 @@ class Connection:
             right = False
         if not right:
             raise InputError("found no host, expected http://HOST[:PORT]/v1 or https://HOST/v1", field="reader")
-        self._headers = _headers(os.environ.get(KEY, ""))
-        self._client: Any = None
+        self._client = self._http.AsyncClient(headers=_headers(os.environ.get(KEY, "")), timeout=None)
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, name="endpoint", daemon=True)
         self._thread.start()
@@ -52,7 +51,7 @@ class Connection:
     def close(self) -> None:
         """Close what is open; then nothing can be asked any more."""
         if self._thread.is_alive():
-            self._run(self._closed())
+            self._run(self._client.aclose())
             self._loop.call_soon_threadsafe(self._loop.stop)
             self._thread.join()
             self._loop.close()
@@ -62,10 +61,6 @@ class Connection:
             work.close()
             raise EndpointError("is not connected any more")
         return asyncio.run_coroutine_threadsafe(work, self._loop).result()
-
-    async def _closed(self) -> None:
-        if self._client is not None:
-            await self._client.aclose()
 
     async def _asked(self, question: Mapping[str, Any]) -> Any:
         try:
@@ -77,8 +72,6 @@ class Connection:
             raise EndpointError(f"could not be asked ({type(error).__name__})") from None
 
     async def _posted(self, question: Mapping[str, Any]) -> bytes:
-        if self._client is None:
-            self._client = self._http.AsyncClient(headers=self._headers, timeout=None)
         body, content = b"", json.dumps(question).encode()
         async with self._client.stream("POST", self.url, content=content) as response:
             if response.status_code in UNAUTHORIZED:

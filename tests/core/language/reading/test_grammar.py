@@ -17,6 +17,7 @@ def test_every_category_of_a_rule_has_words_or_rules(language: str) -> None:
     made = {rule.parent for rules in found.unary.values() for rule in rules}
     made |= {rule.parent for rest in found.binary.values() for rules in rest.values() for rule in rules}
     made |= {leaf.category for leaves in found.lexicon.values() for leaf in leaves} | {"w"}
+    made |= {"det"} if found.determiners else set()
     used = set(found.unary) | set(found.binary) | {right for rest in found.binary.values() for right in rest}
     assert used <= made
 

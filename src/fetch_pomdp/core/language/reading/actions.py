@@ -39,6 +39,7 @@ from fetch_pomdp.core.language.reading.form import (
 Parts = tuple[Form, ...]
 Landmark = Description | Anaphor
 IT = Anaphor()
+SHAPES = ("row", "column")  # of groups
 OF_SIDES: Mapping[str, str] = {
     "left": "left of", "right": "right of", "front": "in front of", "back": "behind", "top": "above",
     "bottom": "below", "west": "left of", "east": "right of",
@@ -193,6 +194,11 @@ def _between(_between: Any, *landmarks: Any) -> Parts | None:
     return None if any(map(_empty, found)) else (Between(*found),)
 
 
+def _between_person(landmark: Landmark, person: str) -> Parts | None:
+    """As in "between the bowl and me": in front of the bowl, as that person sees it."""
+    return None if _empty(landmark) else (Relation("in front of", landmark, Person(person)),)
+
+
 def _middle_between(_middle: Parts, _of: str, group: Landmark) -> Parts | None:
     """As in "in the middle of the two bowls", which is between them."""
     if not isinstance(group, Description):
@@ -247,8 +253,12 @@ def _same_again(_and: str, noun: Landmark) -> Parts | None:
     return noun.parts or None
 
 
-def _cluster_of(_group: str, _of: str, noun: Landmark) -> Description | None:
-    return noun.plus(Cluster()) if isinstance(noun, Description) else None
+def _cluster(shape: str) -> Cluster:
+    return Cluster(shape if shape in SHAPES else "")
+
+
+def _cluster_of(shape: str, _of: str, noun: Landmark) -> Description | None:
+    return noun.plus(_cluster(shape)) if isinstance(noun, Description) else None
 
 
 def _words(landmark: Landmark) -> bool:
@@ -279,7 +289,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "nearest_before": lambda whom, _near: _by(whom, far=False),
     "nearest_before3": lambda _to, whom, _near: _by(whom, far=False),
     "farthest_before3": lambda _from, whom, _far: _by(whom, far=True),
-    "cluster_named": lambda _, noun: noun.plus(Cluster()),
+    "cluster_named": lambda shape, noun: noun.plus(_cluster(shape)),
     "toward": _toward,
     "toward_first": lambda from_, side, _to, _other: _toward(from_, side),
     "within3": lambda _, of, group: _within(of, group),
@@ -295,7 +305,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "alone2": lambda _, __: (Alone(),),
     "only": lambda _: (Count(1),),
     "crowd": lambda _: (Crowded(),),
-    "together": lambda _: (Cluster(),),
+    "together": lambda shape: (_cluster(shape),),
     "middle": lambda _: Middle(),
     "middle_of": _middle_of,
     "middle_between": _middle_between,
@@ -306,6 +316,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "negation": lambda _, parts: (Not(parts[0] if len(parts) == 1 else Description(parts)),),
     "negation_of": _negation_of,
     "joined": lambda first, _and, second: (*first, *second),
+    "joined_on": lambda first, second: (*first, *second),
     "relation": lambda name: (name, False),
     "directly": lambda _, relation: (relation[0], True),
     "directly3": lambda _to, _directly, relation: (relation[0], True),
@@ -319,6 +330,8 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "having_both": _having_both,
     "between_two": _between,
     "between": _between,
+    "between_person": lambda _between, landmark, _and, person: _between_person(landmark, person),
+    "between_person_first": lambda _between, person, _and, landmark: _between_person(landmark, person),
     "within": _within,
     "side_within": _side_within,
     "seen": lambda person: (Seen(Person(person)),),
@@ -331,7 +344,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "middle_among": lambda middle, group: _middle_in(middle, "", group),
     "count": _count,
     "number": lambda number: None if number == "1" else Description((Count(int(number)),)),
-    "cluster": lambda _: Description((Cluster(),)),
+    "cluster": lambda shape: Description((_cluster(shape),)),
     "anaphor": lambda _: IT,
     "anaphors": lambda _: Anaphor(plural=True),
     "the_same": lambda _: Description((Same(),)),
@@ -346,7 +359,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "one_of": lambda _, __, group: Description((Within(group),)),
     "some_of": _some_of,
     "cluster_of": _cluster_of,
-    "cluster_after": lambda noun, _: noun.plus(Cluster()),
+    "cluster_after": lambda noun, shape: noun.plus(_cluster(shape)),
     "more": _more,
     "union": _union,
 }

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from fetch_pomdp.core.compiled import Integers
+from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.language.reading import degrees
 from fetch_pomdp.core.language.reading.degrees import Array
 from fetch_pomdp.core.language.reading.form import (
@@ -46,6 +46,8 @@ from fetch_pomdp.core.language.reading.weights import Weights
 UNLIKELY = 0.1  # degree, of the best landmark's, below which an item is no end of what is between
 ENDS = 24  # items that are looked at as an end of what is between
 DEEPEST = 6  # landmarks of landmarks
+ALIKE = 1e-6  # nats between groups that are as likely
+MOST_ALIKE = 24  # groups that are looked at, where more are as likely
 LIKELIEST = 4  # groups that are looked at
 SWAPPED, WIDE, DEEP = (np.array(column) for column in zip(*VIEWS, strict=True))
 LATERAL = {"left": -1.0, "right": 1.0, "west": -1.0, "east": 1.0}
@@ -133,7 +135,7 @@ class Denotation:
 
     def _groups(self, said: Description, depth: int) -> tuple[Array, Array]:
         hard = np.ones(self.table.size)
-        number = None
+        number, shape = None, ""
         holds: Array = np.ones((1, 1, self.table.size))
         ranking: list[Form] = []
         for part in said.parts:
@@ -142,7 +144,7 @@ class Denotation:
             elif isinstance(part, Count):
                 number = part.number
             elif isinstance(part, Cluster):
-                continue
+                shape = shape or part.shape
             elif isinstance(part, Within) and isinstance(part.group, Description):
                 holds = holds * np.maximum(self.of(part.group, depth + 1), self.w.group_outside)
             elif ranks(part):
@@ -150,24 +152,26 @@ class Denotation:
             else:
                 holds = holds * self._part(part, depth)
         candidates = hard > 0.3 * max(float(hard.max()), 1e-9)
-        found = self._sets(candidates, number)
+        found = self._sets(candidates, number, shape)
         holds = holds * np.where(candidates, 1.0, 1e-6)
         for part in ranking:
             holds = holds * self._rank(part, degrees.share(holds), depth, False)
         return self._chances(found, holds)
 
-    def _sets(self, candidates: Array, number: int | None) -> Groups:
-        key = ("sets", candidates.tobytes(), number)
-        found = self.table.kept.get(key)
+    def _sets(self, candidates: Array, number: int | None, shape: str) -> Groups:
+        table, key = self.table, ("sets", candidates.tobytes(), number, shape)
+        found = table.kept.get(key)
         if found is None:
-            found = self.table.kept[key] = groups(candidates, number, self.table.distances)
+            across = {"row": table.away, "column": table.right}.get(shape)
+            along = None if across is None else across[SPEAKER] * table.spread / table.spacing
+            found = table.kept[key] = groups(candidates, number, table.distances, along)
         return found
 
     def _chances(self, found: Groups, holds: Array) -> tuple[Array, Array]:
         w, sizes = self.w, np.maximum(found.members.sum(axis=1), 1.0)
         fit = np.log(np.maximum(holds, 1e-12)) @ found.members.T / sizes
         log = fit - w.group_near * found.near - w.group_spread * found.spread + w.group_apart * found.apart
-        best = np.argsort(-log.max(axis=(0, 1)), kind="stable")[:LIKELIEST]
+        best = _best(log.max(axis=(0, 1)), LIKELIEST)
         log = log[..., best]
         chances = np.exp(log - np.logaddexp.reduce(log, axis=-1, keepdims=True))
         quality = np.exp(np.minimum(fit[..., best].max(axis=-1, keepdims=True), 0.0))
@@ -415,6 +419,16 @@ class Denotation:
         some, others = _likely(one), _likely(other)
         holds = degrees.between(self.table.distances, some, others, (w.between_wide, w.between_reach, w.between_even))
         return (holds * one[..., None, some, None] * other[..., None, None, others]).max(axis=(-1, -2))
+
+
+def _best(values: Vector, count: int) -> Integers:
+    """Return the indices of the largest values, largest first: `count` of them, and those that are as large (`ALIKE`).
+
+    Else the order of the items would choose among groups that a table has by symmetry.
+    """
+    order: Integers = np.argsort(-values, kind="stable")
+    least = values[order[min(count, len(order)) - 1]] - ALIKE
+    return order[: min(int((values >= least).sum()), MOST_ALIKE)]
 
 
 def _key(form: Form, depth: int) -> Any:

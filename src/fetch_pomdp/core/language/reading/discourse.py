@@ -14,9 +14,11 @@ from typing import Any
 
 from fetch_pomdp.core.language.reading.chart import Cover
 from fetch_pomdp.core.language.reading.form import (
+    Alone,
     Anaphor,
     Cluster,
     Count,
+    Crowded,
     Description,
     Form,
     Known,
@@ -41,6 +43,7 @@ from fetch_pomdp.core.language.reading.form import (
 READINGS = 5  # of an utterance
 MARGIN = 2.0  # cost above the best reading's, beyond which one no longer counts
 LARGEST = 40  # forms of what "it" or "the same" may stand for
+ANEW = 0.5  # cost of taking what is said without a word for the item for another kind of item than before
 SLACK = 1e-9  # cost: sums in another order differ by less
 IGNORED = 0.7  # cost of a description that is left out
 
@@ -79,11 +82,11 @@ def candidates(
         if _enough(result.values(), least):
             break
         meaning, ignored = _assembled(kinds, [cover.meanings for cover in covers])
-        meaning = _grounded(meaning, before)
-        cost = least + ignored
-        if meaning not in result or cost < result[meaning].cost:
-            skipped = sum(cover.skipped for cover in covers)
-            result[meaning] = Candidate(meaning, cost, skipped, nested(meaning))
+        skipped = sum(cover.skipped for cover in covers)
+        for said, more in _continued(_grounded(meaning, before), before):
+            cost = least + ignored + more
+            if said not in result or cost < result[said].cost:
+                result[said] = Candidate(said, cost, skipped, nested(said))
     ranked = sorted(result.values(), key=lambda each: each.cost)[:READINGS]
     return [each for each in ranked if each.cost <= ranked[0].cost + MARGIN]
 
@@ -273,6 +276,17 @@ def _antecedent(anaphor: Anaphor, before: Sequence[Description]) -> Description:
 def _brief(said: Description) -> bool:
     """Return whether a meaning is short enough to be spoken of again: what has "it" in it grows with each time."""
     return said.extent[0] <= LARGEST
+
+
+def _continued(meaning: Description, before: Before) -> Iterator[tuple[Description, float]]:
+    """Yield a meaning, and what it costs more: "the one on the left" after "the mug" may be a mug, or any item."""
+    words = () if before.meaning is None else tuple(part for part in before.meaning.parts if isinstance(part, Select))
+    ranked = any(isinstance(part, Side | Superlative | Middle | Alone | Crowded | Relation) for part in meaning.parts)
+    if words and ranked and not words_of(meaning) and not meaning.plural:
+        yield Description((*words, *meaning.parts)), 0.0
+        yield meaning, ANEW
+    else:
+        yield meaning, 0.0
 
 
 def _grounded(meaning: Description, before: Before) -> Description:

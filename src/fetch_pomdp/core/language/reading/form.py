@@ -138,10 +138,12 @@ class Count:
 
 @dataclass(frozen=True, slots=True)
 class Cluster:
-    """Items that stand together, however many."""
+    """Items that stand together, however many. shape: "row" (side by side), "column" (behind each other), or any."""
+
+    shape: str = ""
 
     def __str__(self) -> str:
-        return "together"
+        return f"in a {self.shape}" if self.shape else "together"
 
 
 @dataclass(frozen=True, slots=True)

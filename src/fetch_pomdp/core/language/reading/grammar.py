@@ -45,6 +45,7 @@ class Grammar:
 
     language: str
     noise: frozenset[str]
+    determiners: frozenset[str]  # those of the noise that begin a description
     endings: tuple[tuple[str, str], ...]  # of inflected words, and what stands in their place in a dictionary
     lexicon: Mapping[tuple[str, ...], tuple[Leaf, ...]]
     said_as: Mapping[Leaf, tuple[tuple[str, ...], ...]]  # of each leaf, the plainest first
@@ -95,6 +96,7 @@ def grammar(language: str) -> Grammar:
     return Grammar(
         data["language"],
         frozenset(data["noise"].split()),
+        frozenset(data["determiners"].split()),
         tuple((ending, instead) for ending, _, instead in (each.partition("=") for each in data["endings"].split())),
         {words: tuple(dict.fromkeys(leaves)) for words, leaves in lexicon.items()},
         {leaf: tuple(dict.fromkeys(words)) for leaf, words in phrases_of.items()},

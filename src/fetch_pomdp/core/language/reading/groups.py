@@ -12,6 +12,7 @@ from fetch_pomdp.core.compiled import Integers, Vector
 from fetch_pomdp.core.language.reading.table import Array, Mask
 
 MOST = 250  # sets of a number of items that are looked at one by one
+ROWS_APART = 0.45  # distances of neighbours
 LINKS = (1.15, 1.45, 1.9)  # distances of neighbours below which items stand together
 
 
@@ -25,11 +26,15 @@ class Groups:
     apart: Vector  # (g,), how much farther away the next candidate is, at most 2
 
 
-def groups(candidates: Mask, number: int | None, distances: Array) -> Groups:
-    """Return the sets of candidates, (n,), that may be a group of a number of items, or of any number."""
+def groups(candidates: Mask, number: int | None, distances: Array, along: Vector | None = None) -> Groups:
+    """Return the sets of candidates, (n,), that may be a group of a number of items, or of any number.
+
+    along: (n,), where each item is across the rows that a group may be, in distances of neighbours; None for any group.
+    """
     chosen = np.flatnonzero(candidates)
     if number is None:
         sets = _clusters(chosen, distances)
+        sets += [] if along is None else [row for row in _rows(chosen, along) if row not in sets]
     elif len(chosen) <= number:
         sets = [tuple(chosen.tolist())]
     elif comb(len(chosen), number) <= MOST:
@@ -56,6 +61,13 @@ def _clusters(chosen: Integers, distances: Array) -> list[tuple[int, ...]]:
             if grown.sum() > 1:
                 found[tuple(chosen[grown].tolist())] = None
     return list(found) or [tuple(chosen.tolist())]
+
+
+def _rows(chosen: Integers, along: Vector) -> list[tuple[int, ...]]:
+    """Return the candidates that stand side by side, in rows as far apart as ROWS_APART."""
+    order = chosen[np.argsort(along[chosen], kind="stable")]
+    cuts = np.flatnonzero(np.diff(along[order]) > ROWS_APART) + 1
+    return [tuple(sorted(row.tolist())) for row in np.split(order, cuts) if len(row) > 1]
 
 
 def _measured(sets: list[tuple[int, ...]], candidates: Mask, distances: Array) -> Groups:

@@ -27,6 +27,7 @@ SKIPPED = {
     "have": 0.4, "n": 0.6, "person": 1.0, "poss": 0.8, "verb": 0.1, "look": 0.2, "more": 0.1, "skip": 0.5, "away": 0.4,
     "its": 0.4, "them": 0.5, "those": 0.5,
 }  # fmt: skip
+ENDS = ("w", "n", "together", "alone", "crowd")  # categories of words that no "the" follows in the same description
 CONTENT = 1.6  # and of any other
 
 
@@ -148,11 +149,19 @@ def _clause(kind: str, words: Sequence[str], vocabulary: Vocabulary, grammar: Gr
     inside = {place for leaves in here for start, end, _, _ in leaves for place in range(start, end)}
     noise = [word in grammar.noise for word in known]
     empty = [noise[place] or place not in inside for place in range(len(known))]
+    begins = [word in grammar.determiners for word in known]
     tokens = [
         Token(start, stop, category, value)
         for leaves in here
         for start, end, category, value in leaves
-        for stop in _stops(end, here, empty)
+        for stop in _stops(end, here, empty, begins)
+        if category not in ENDS or not any(begins[end:stop])
+    ]
+    tokens += [
+        Token(place, stop, "det", word)
+        for place, word in enumerate(known)
+        if begins[place]
+        for stop in _stops(place + 1, here, empty, begins)
     ]
     # What says nothing at the beginning belongs to the first token.
     lead = next((place for place, each in enumerate(empty) if not each), 0)
@@ -160,8 +169,9 @@ def _clause(kind: str, words: Sequence[str], vocabulary: Vocabulary, grammar: Gr
     skips = [0.1 if said and leaves else 0.0 for leaves, said in zip(here, noise, strict=True)]
     for start, end, category, value in (leaf for leaves in here for leaf in leaves):
         if (category, value) != ("num", "1"):
+            said = sum(not noise[place] for place in range(start, end))
             for place in range(start, end):
-                cost = SKIPPED.get(category, CONTENT) / (end - start)
+                cost = SKIPPED.get(category, CONTENT) / max(said, 1)
                 skips[place] = skips[place] if noise[place] else max(skips[place], cost)
     unknown = []
     for place, word in enumerate(known):
@@ -174,14 +184,14 @@ def _clause(kind: str, words: Sequence[str], vocabulary: Vocabulary, grammar: Gr
 _Leaf = tuple[int, int, str, str]  # start, end, category, value
 
 
-def _stops(end: int, here: Sequence[Sequence[_Leaf]], empty: Sequence[bool]) -> list[int]:
+def _stops(end: int, here: Sequence[Sequence[_Leaf]], empty: Sequence[bool], begins: Sequence[bool]) -> list[int]:
     """Return where a token that ends at `end` may end: what says nothing after it is a part of it, unless a phrase
-    begins there.
+    begins there, or another description (with "the").
     """
     stops = []
     place = end
     while place < len(empty) and empty[place]:
-        if here[place]:
+        if here[place] or begins[place]:
             stops.append(place)
         place += 1
     return [*stops, place]
