@@ -26,7 +26,7 @@ from fetch_pomdp.core.scene import Scene
 from fetch_pomdp.errors import EventError
 from fetch_pomdp.files.checking import checked, differences, relived, schema
 from fetch_pomdp.files.events import event_to_json
-from fetch_pomdp.files.header import FIELDS, READ, STUDY_FIELDS, Header, header_from_json, header_to_json
+from fetch_pomdp.files.header import FIELDS, READ, READER, STUDY_FIELDS, Header, header_from_json, header_to_json
 from fetch_pomdp.files.recordings import EventLog, read_recording
 from tests.files.test_recordings import SPEAKS, events, headers
 
@@ -264,7 +264,7 @@ def test_what_was_said_is_kept_beside_what_was_heard() -> None:
 
 def test_the_schema_names_the_fields_of_the_reader() -> None:
     kinds = schema()["$defs"]
-    assert set(kinds["header"]["properties"]) == {*FIELDS, *STUDY_FIELDS}
+    assert set(kinds["header"]["properties"]) == {*FIELDS, *STUDY_FIELDS, READER}
     assert tuple(kinds["header"]["properties"]["version"]["enum"]) == READ
     line = event_to_json(Observed(Observation(("a",)), (), 1.0, ("b",), early=True, anew=True), SCENE)
     assert set(line) == set(kinds["observed"]["properties"])

@@ -110,6 +110,8 @@ def test_a_reason_that_is_none_is_refused(line: dict[str, object], message: str)
 headers = [
     Header(scene=SCENE, scene_name="ambiguous"),
     Header(scene=TABLE, planner="sparse", parameters={"depth": 3}, seed=7, target="pot"),
+    Header(scene=TABLE, reader="table:german"),
+    Header(scene=TABLE, reader="openai:model@https://example.org/v1"),
     Header(
         scene=dataclasses.replace(
             TABLE, model=Model(sigma=0.2, gesture_likelihood="exact"), rewards=Rewards(wait=-0.5, point=-5.0)
@@ -126,7 +128,7 @@ def test_headers_survive_a_round_trip(header: Header) -> None:
 def test_a_header_says_only_what_is_not_by_default() -> None:
     header = Header(scene=dataclasses.replace(SCENE, model=Model(sigma=0.2)), scene_name="ambiguous")
     assert header_to_json(header) == {
-        "scene": "ambiguous", "version": 3, "model": {"sigma": 0.2}, "planner": DEFAULT, "seed": 0,
+        "scene": "ambiguous", "version": 4, "model": {"sigma": 0.2}, "planner": DEFAULT, "seed": 0,
     }  # fmt: skip
 
 
@@ -305,9 +307,9 @@ ONE_ITEM = {"id": "cup", "position": [0, 1, 0], "vocabulary": ["cup"]}
             {"scene": {"head": [0, 0, 1], "items": [{**ONE_ITEM, "vocabulary": []}]}},
             "scene.items[0].vocabulary: found []",
         ),
-        ({"scene": "ambiguous", "version": 4}, "version: found 4, expected one of 1, 2, 3"),
-        ({"scene": "ambiguous", "version": True}, "version: found True, expected one of 1, 2, 3"),
-        ({"scene": "ambiguous", "version": None}, "version: found None, expected one of 1, 2, 3"),
+        ({"scene": "ambiguous", "version": 5}, "version: found 5, expected one of 1, 2, 3, 4"),
+        ({"scene": "ambiguous", "version": True}, "version: found True, expected one of 1, 2, 3, 4"),
+        ({"scene": "ambiguous", "version": None}, "version: found None, expected one of 1, 2, 3, 4"),
         ({"scene": "ambiguous", "model": {"sigma": -1}}, "model.sigma: found -1, expected an angle above 0"),
         ({"scene": "ambiguous", "model": {"sigma": float("inf")}}, "model.sigma: found inf"),
         ({"scene": "ambiguous", "model": {"sgma": 1}}, "model.sgma: unknown parameter"),
@@ -327,6 +329,9 @@ ONE_ITEM = {"id": "cup", "position": [0, 1, 0], "vocabulary": ["cup"]}
         ({"scene": "ambiguous", "target": "cup"}, "target: found 'cup', expected one of bowl-1, bowl-2"),
         ({"scene": "ambiguous", "target": 0}, "target: found 0, expected the id of an item"),
         ({"scene": "ambiguous", "sead": 1}, "sead: unknown field, expected one of scene, model"),
+        ({"scene": "ambiguous", "version": 3, "reader": "table"}, "reader: unknown field"),
+        ({"scene": "ambiguous", "reader": "table:klingon"}, "reader: found 'table:klingon', expected words, table"),
+        ({"scene": "ambiguous", "reader": 1}, "reader: found 1, expected a reader's name"),
     ],
 )
 def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: str) -> None:
@@ -377,6 +382,18 @@ def test_headers_that_are_none(tmp_path: Path, fields: dict[str, Any], message: 
         (
             {"observation": {"words": [{"text": "a", "start": 0, "end": 1, "posterior": 2}]}},
             "observation.words[0].posterior: found 2, expected a probability",
+        ),
+        (
+            {"observation": {"utterance": "no", "read": [0, 0]}},
+            "observation.read: found [0, 0], expected a list for each of 1",
+        ),
+        (
+            {"observation": {"utterance": "no", "read": [[0]]}},
+            "observation.read[0]: found [0], expected a number for each",
+        ),
+        (
+            {"observation": {"utterance": "no", "read": [[0, 0, 0, "x", 0, 0]]}},
+            "observation.read[0]: found 'x', expected a log-likelihood",
         ),
         ({"observation": {"alternatives": "no"}}, "observation.alternatives: found 'no', expected a list"),
         (

@@ -17,6 +17,7 @@ from fetch_pomdp.cli.options import Json, ModelFile, RobotName, Seed, as_json
 from fetch_pomdp.cli.progress import trials_bar
 from fetch_pomdp.cli.reproduce import compare, fit, stories
 from fetch_pomdp.cli.terminal import Terminal
+from fetch_pomdp.core.language.reading.catalogue import OWN
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
@@ -55,6 +56,10 @@ def study(
     ] = FOLDER,
     model: ModelFile = None,
     robot: RobotName = None,
+    reader: Annotated[
+        str | None,
+        typer.Option(metavar="|".join(OWN), help="What reads what people say (docs/reading.md).  [default: words]"),
+    ] = None,
     logs: Annotated[bool, typer.Option("--logs", help="Keep every interaction, event by event, in DIR/logs.")] = False,
     real_speech: Annotated[
         bool, typer.Option("--real-speech", help="Say every word with espeak-ng and hear it with PocketSphinx.")
@@ -71,7 +76,7 @@ def study(
     """
     if context.invoked_subcommand is not None:
         return
-    given = {"people": people, "seed": seed, "logs": logs or None, "real_speech": real_speech or None}
+    given = {"people": people, "seed": seed, "reader": reader, "logs": logs or None, "real_speech": real_speech or None}
     chosen = _chosen(config, model, given)
     if robot is not None:
         from fetch_pomdp.cli.robot import with_robot

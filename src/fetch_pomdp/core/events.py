@@ -10,6 +10,8 @@ from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Outcome, Word
 
+Likelihoods: TypeAlias = tuple[tuple[float, ...], ...]
+
 
 @dataclass(frozen=True, slots=True)
 class Observed:
@@ -17,7 +19,8 @@ class Observed:
 
     spoken: the words that the person really said, where somebody wrote them down; no belief reads them. early: whether
     it was heard while the next action, which had been decided, went on. anew: whether it begins another request, after
-    a hand-over.
+    a hand-over. read: where a reader reads, log p(words | item) of each reading of the observation, (readings,
+    n_items), so that a replay needs no reader; it is known when the agent has taken the event.
     """
 
     observation: Observation
@@ -26,6 +29,7 @@ class Observed:
     spoken: tuple[str, ...] | None = None
     early: bool = False
     anew: bool = False
+    read: Likelihoods = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any, TypeVar
 
 from fetch_pomdp import checks
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.alternatives import Alternative
-from fetch_pomdp.core.events import Acted, Event, Observed
+from fetch_pomdp.core.events import Acted, Event, Likelihoods, Observed
 from fetch_pomdp.core.gesture import Ray
+from fetch_pomdp.core.language.reading.tokens import words_of
 from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.ports import Outcome, Word
@@ -38,7 +40,7 @@ def event_from_json(data: Mapping[str, Any], scene: Scene) -> Event:
         if not isinstance(data.get(name, False), bool):
             raise EventError(f"found {shown(data[name])}, expected true or false", field=name)
     try:
-        observed = _observed(checks.mapping(data["observation"], "", EventError), time)
+        observed = _observed(checks.mapping(data["observation"], "", EventError), time, len(scene.items))
     except InputError as error:
         raise error.within("observation") from None
     return dataclasses.replace(observed, **{name: data.get(name, False) for name in FLAGS})
@@ -70,8 +72,9 @@ def _acted(data: Mapping[str, Any], scene: Scene) -> Acted:
     return Acted(action, Outcome(outcome), time=_time(data.get("t"), "t"), passes=passes, reason=reason)
 
 
-def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
-    checks.known(data, ("utterance", "words", "alternatives", "head", "wrist", "spoken"), "field", EventError)
+def _observed(data: Mapping[str, Any], time: float | None, n_items: int) -> Observed:
+    known = ("utterance", "words", "alternatives", "read", "head", "wrist", "spoken")
+    checks.known(data, known, "field", EventError)
     utterance, spoken = (_text(data.get(name), name) for name in ("utterance", "spoken"))
     words = _listed(data.get("words"), "words", _word)
     if utterance is None:
@@ -82,8 +85,29 @@ def _observed(data: Mapping[str, Any], time: float | None) -> Observed:
         raise EventError("found none, expected head and wrist, or neither", field=missing)
     ray = None if head is None or wrist is None else Ray(head, wrist)
     said = None if spoken is None else tokenize(spoken)
-    alternatives = _listed(data.get("alternatives"), "alternatives", _alternative)
-    return Observed(Observation(tokenize(utterance), ray, alternatives), words, time, said)
+    in_words = tokenize if data.get("read") is None else words_of
+    alternatives = _listed(data.get("alternatives"), "alternatives", partial(_alternative, in_words=in_words))
+    observation = Observation(in_words(utterance), ray, alternatives)
+    read = _read(data.get("read"), max(len(alternatives), 1), n_items)
+    return Observed(observation, words, time, said, read=read)
+
+
+def _read(value: object, n_readings: int, n_items: int) -> Likelihoods:
+    """Return what a reader said of each reading, a number for each item."""
+    if value is None:
+        return ()
+    expected = f"expected a list for each of {n_readings} readings"
+    if not isinstance(value, list) or len(value) != n_readings:
+        raise EventError(f"found {shown(value)}, {expected}", field="read")
+    for place, row in enumerate(value):
+        if not isinstance(row, list) or len(row) != n_items:
+            raise EventError(
+                f"found {shown(row)}, expected a number for each of {n_items} items", field=f"read[{place}]"
+            )
+    return tuple(
+        tuple(checks.number(each, f"read[{place}]", "a log-likelihood", EventError) for each in row)
+        for place, row in enumerate(value)
+    )
 
 
 def _text(value: object, field: str) -> str | None:
@@ -107,11 +131,11 @@ def _listed(value: object, field: str, make: Callable[[Mapping[str, Any]], Made]
     return tuple(made)
 
 
-def _alternative(data: Mapping[str, Any]) -> Alternative:
+def _alternative(data: Mapping[str, Any], *, in_words: Callable[[str], tuple[str, ...]]) -> Alternative:
     checks.known(data, ("utterance", "weight"), "field", EventError)
     checks.required(data, ("utterance", "weight"), EventError)
     weight = checks.within(data["weight"], 0.0, 1.0, "weight", "a probability above 0", EventError)
-    return Alternative(tokenize(_text(data["utterance"], "utterance") or ""), weight)
+    return Alternative(in_words(_text(data["utterance"], "utterance") or ""), weight)
 
 
 def _word(data: Mapping[str, Any]) -> Word:
@@ -171,6 +195,8 @@ def _observed_to_json(event: Observed) -> dict[str, Any]:
         fields["alternatives"] = [
             {"utterance": " ".join(each.words) or None, "weight": each.weight} for each in observation.alternatives
         ]
+    if event.read:
+        fields["read"] = [list(each) for each in event.read]
     if observation.ray is not None:
         fields |= {"head": list(observation.ray.head), "wrist": list(observation.ray.wrist)}
     if event.spoken is not None:

@@ -11,6 +11,8 @@ from fetch_pomdp import checks
 from fetch_pomdp.checks import shown
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.language.names import named
+from fetch_pomdp.core.language.reading.catalogue import WORDS, recorded_reader
+from fetch_pomdp.core.language.reading.reader import Reader
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import DEFAULT, planner_named
 from fetch_pomdp.core.scene import Scene
@@ -18,9 +20,10 @@ from fetch_pomdp.errors import EventError, InputError, SceneError
 from fetch_pomdp.files.events import item_index
 from fetch_pomdp.files.models import changed
 
-VERSION = 3
-READ = (1, 2, VERSION)
+VERSION = 4
+READ = (1, 2, 3, VERSION)
 FIELDS = ("scene", "model", "rewards", "version", "planner", "seed", "target", "names")
+READER = "reader"  # from version 4 on; before, words were read as in the paper
 STUDY_FIELDS = ("person", "layout", "paradigm", "order", "begun")  # from version 2 on
 
 
@@ -36,6 +39,7 @@ class Header:
     planner: str = DEFAULT
     parameters: Mapping[str, Any] = field(default_factory=dict)  # of the planner
     seed: int = 0
+    reader: str = WORDS  # what read the words, by its name (`reading.catalogue`)
     target: str | None = None  # id of the item that was desired, where that is known
     person: int | None = None
     layout: str | None = None
@@ -43,13 +47,24 @@ class Header:
     order: int | None = None  # place among the person's trials, from 0
     begun: float | None = None  # s, when the request began
 
-    def agent(self, *, planner: str | None = None, seed: int | None = None, **parameters: Any) -> Agent:
-        """Return an agent at the start of this interaction; what is given replaces what was recorded."""
+    def agent(
+        self,
+        *,
+        planner: str | None = None,
+        seed: int | None = None,
+        reader: Reader | None = None,
+        **parameters: Any,
+    ) -> Agent:
+        """Return an agent at the start of this interaction; what is given replaces what was recorded.
+
+        reader: that of a name that is none of ours; without it our grammar reads what is not on record.
+        """
         given = {name: value for name, value in parameters.items() if value is not None}
         changed = planner is not None and planner != self.planner
         merged = given if changed else {**self.parameters, **given}
         chosen = planner_named(self.planner if planner is None else planner, **merged)
-        return Agent(self.scene, chosen, seed=self.seed if seed is None else seed)
+        reads = recorded_reader(self.reader) if reader is None else reader
+        return Agent(self.scene, chosen, seed=self.seed if seed is None else seed, reader=reads)
 
 
 def header_from_json(data: Mapping[str, Any]) -> Header:
@@ -57,7 +72,8 @@ def header_from_json(data: Mapping[str, Any]) -> Header:
     version = data.get("version", VERSION)
     if type(version) is not int or version not in READ:
         raise EventError(f"found {shown(version)}, expected one of {', '.join(map(str, READ))}", field="version")
-    checks.known(data, FIELDS if version == 1 else FIELDS + STUDY_FIELDS, "field", EventError)
+    fields = FIELDS + (STUDY_FIELDS if version > 1 else ()) + ((READER,) if version > 3 else ())
+    checks.known(data, fields, "field", EventError)
     checks.required(data, ("scene",), EventError)
     scene = _scene(data["scene"])
     if _names(data.get("names", False)):
@@ -73,6 +89,7 @@ def header_from_json(data: Mapping[str, Any]) -> Header:
         planner=planner,
         parameters=parameters,
         seed=_whole(data.get("seed", 0), "seed"),
+        reader=_reader(data.get(READER, WORDS)),
         target=target,
         **_trial(data),
     )
@@ -111,6 +128,12 @@ def _scene(value: object) -> Scene:
         raise error.within("scene") from None
 
 
+def _reader(value: object) -> str:
+    name = checks.text(value, READER, "a reader's name", EventError)
+    recorded_reader(name)
+    return name
+
+
 def _names(value: object) -> bool:
     if not isinstance(value, bool):
         raise EventError(f"found {shown(value)}, expected true or false", field="names")
@@ -140,5 +163,7 @@ def header_to_json(header: Header) -> dict[str, Any]:
             fields[section] = changes
     fields["planner"] = {"name": header.planner, **header.parameters} if header.parameters else header.planner
     fields["seed"] = header.seed
+    if header.reader != WORDS:
+        fields[READER] = header.reader
     trial = {name: getattr(header, name) for name in ("target", *STUDY_FIELDS)}
     return fields | {name: value for name, value in trial.items() if value is not None}
