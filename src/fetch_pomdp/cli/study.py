@@ -17,7 +17,6 @@ from fetch_pomdp.cli.options import Json, ModelFile, RobotName, Seed, as_json
 from fetch_pomdp.cli.progress import trials_bar
 from fetch_pomdp.cli.reproduce import compare, fit, stories
 from fetch_pomdp.cli.terminal import Terminal
-from fetch_pomdp.core.language.reading.catalogue import OWN
 from fetch_pomdp.core.planners.base import prepare
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.problem import Problem
@@ -58,7 +57,7 @@ def study(
     robot: RobotName = None,
     reader: Annotated[
         str | None,
-        typer.Option(metavar="|".join(OWN), help="What reads what people say (docs/reading.md).  [default: words]"),
+        typer.Option(metavar="words|table", help="What reads what people say (docs/reading.md).  [default: words]"),
     ] = None,
     logs: Annotated[bool, typer.Option("--logs", help="Keep every interaction, event by event, in DIR/logs.")] = False,
     real_speech: Annotated[
