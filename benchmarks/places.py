@@ -1,83 +1,69 @@
-"""Items described by where they are, said aloud: from sound through the reader to the item handed over.
+"""What it is worth that people say where an item is, to a robot that reads it: studies of the size of the paper's.
 
-    python benchmarks/places.py [--half held-out] [--voices 10] [--room quiet] [--json] [--cache FOLDER]
+    python benchmarks/places.py [--studies 20] [--seed 100] [--grammar reader] [--reader table] [--unknown 0]
+        [studies/fitted.toml]
 
-Conversations as in `conversations.py`, with the robot that reads by `TableReader`. The item wanted is the one that the
-written sentence says to the reader: what is measured is the ears. Each sentence is said by several voices; those of the
-held-out half are sentences, tables and voices that nothing was tuned on.
+The last robot of a study alone, before people who say a place in some share of their requests (`p_place`): in words of
+the published studies (`--grammar study`), or of the reader's own grammar. Means over studies, each with a seed of its
+own, of times (s) and of the share of trials in which the item was right, with their standard errors.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
-import sys
-import tempfile
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict
-from pathlib import Path
+import dataclasses
+from collections import defaultdict
+from functools import partial
 
-from conversation_sets import HALVES, PLACES, Conversation, Table
-from conversations import Result, played
-from fetch_pomdp.core.language.reading.reader import Context, TableReader
-from rooms import missing, rooms
+import numpy as np
 
-ROOM = "quiet"
+from fetch_pomdp.study.configuration import load_study
+from fetch_pomdp.study.crew import Crew
+from fetch_pomdp.study.design import Study, assignments
+from fetch_pomdp.study.experiment import play
+from live_people import seeded
 
-
-def plans(half: str, voices: int) -> list[Conversation]:
-    """Return a conversation for each sentence of a half and each of its voices."""
-    reader, found = TableReader(), list[Conversation]()
-    for table, sentences in PLACES[half]:
-        for text in sentences:
-            heard = reader.read(tuple(text.split()), table.scene, Context())
-            target = int(heard.log_likelihood.argmax())
-            for voice in HALVES[half].voices[:voices]:
-                found.append(_wanting(table, target, text, voice))
-    return found
+SHARES = (0.05, 0.8)
 
 
-def _wanting(table: Table, target: int, text: str, voice: str) -> Conversation:
-    return Conversation(
-        table, target, voice, request=text, again=text, yes="yes", no="no", begins=1.0, thinks=0.3, seed=0
-    )
+def of_people(study: Study, grammar: str, p_place: float, p_unknown: float) -> Study:
+    """Return a study of its last robot alone, with people who say places so often."""
+    last = list(study.paradigms)[-1]
+    people = dataclasses.replace(study.population, grammar=grammar, p_place=p_place, p_unknown=p_unknown)
+    return dataclasses.replace(study, population=people, paradigms={last: study.paradigms[last]})
 
 
-def table_of(results: Mapping[str, Sequence[Result]]) -> str:
-    """Return the results of each sentence as a table in Markdown."""
-    lines = ["| sentence | voices | right | wrong | questions |", "|---" * 5 + "|"]
-    together = [result for row in results.values() for result in row]
-    for text, row in (*results.items(), ("all", together)):
-        right, wrong = sum(each.right for each in row), sum(each.picked is not None and not each.right for each in row)
-        questions = sum(each.questions for each in row) / len(row)
-        lines.append(f"| {text} | {len(row)} | {right} | {wrong} | {questions:.1f} |")
-    return "\n".join(lines)
+def told(study: Study, seed: int, count: int, crew: Crew) -> None:
+    """Play studies and print the means of their layouts."""
+    found: dict[str, list[tuple[float, float, float]]] = defaultdict(list)
+    for each in seeded(study, seed, count):
+        trials = [played.trial for played in crew.results(partial(play, each, None), assignments(each))]
+        for layout in each.layouts:
+            here = [trial for trial in trials if trial.layout == layout]
+            means = np.mean([(trial.time, 100 * trial.correct, trial.questions) for trial in here], axis=0)
+            found[layout].append(tuple(means.tolist()))
+    for layout, rows in found.items():
+        (time, right, questions), errors = np.mean(rows, axis=0), np.std(rows, axis=0, ddof=1) / np.sqrt(count)
+        cells = f"{time:.2f} ± {errors[0]:.2f} s | {right:.1f} ± {errors[1]:.1f} % | {questions:.2f}"
+        print(f"| {study.population.p_place:.2f} | {layout} | {cells} |", flush=True)
 
 
-def main() -> int:
-    """Run the benchmark; 2 if a program that speaks is missing."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--half", choices=list(HALVES), default="held-out")
-    parser.add_argument("--voices", type=int, default=10, help="voices that say each sentence")
-    parser.add_argument("--room", default=ROOM, help="a room of conversations.py")
-    parser.add_argument("--json", action="store_true", help="print JSON, a line a conversation")
-    parser.add_argument("--cache", type=Path, help="folder that keeps the recordings for the next run")
-    options = parser.parse_args()
-    if packages := missing():
-        print(f"not installed: {', '.join(packages)}; install with: apt install {' '.join(packages)}", file=sys.stderr)
-        return 2
-    with tempfile.TemporaryDirectory() as temporary:
-        folder, results = options.cache or Path(temporary), dict[str, list[Result]]()
-        room = next(room for room in rooms(HALVES[options.half], folder) if room.name == options.room)
-        for plan in plans(options.half, options.voices):
-            result = played(plan, room, folder, reader=TableReader())
-            results.setdefault(plan.request, []).append(result)
-            if options.json:
-                print(json.dumps(asdict(result) | {"request": plan.request, "voice": plan.voice}), flush=True)
-    if not options.json:
-        print(table_of(results))
-    return 0
+def main() -> None:
+    """Run the studies and print their table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("config", nargs="?", default="studies/fitted.toml")
+    parser.add_argument("--studies", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=100)
+    parser.add_argument("--grammar", default="reader")
+    parser.add_argument("--reader", default="table")
+    parser.add_argument("--unknown", type=float, default=0.0)
+    given = parser.parse_args()
+    study = dataclasses.replace(load_study(given.config), reader=given.reader)
+    print("| p_place | layout | time | right | questions |\n|---|---|---|---|---|", flush=True)
+    for share in SHARES:
+        people = of_people(study, given.grammar, share, given.unknown)
+        told(people, given.seed, given.studies, Crew(workers=1))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

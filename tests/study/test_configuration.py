@@ -126,6 +126,7 @@ def test_the_file_in_the_documentation_is_the_papers_study_and_a_robot_more(tmp_
         ("[paradigms.a]\nplanner = 'sparse'\ndepth = 0", "study.toml:3: paradigms.a.depth: found 0"),
         ("[paradigms.a]\nplanner = 'always'\nmodel = {sigma = 9}", "study.toml:3: paradigms.a.model.sigma: found 9"),
         ("people = [", "study.toml:1: broken TOML"),
+        ("reader = 'lips'", "study.toml:1: reader: found 'lips', expected words, table"),
     ],
 )
 def test_what_a_file_cannot_say_is_answered_in_one_line(text: str, message: str, tmp_path: Path) -> None:
@@ -139,6 +140,9 @@ def changes() -> dict[str, dict[str, Any]]:
     return {
         "people": {"people": 17},
         "population.patience": {"population": People(patience=6.9)},
+        "population.grammar": {"population": dataclasses.replace(Study().population, grammar="reader")},
+        "population.p_unknown": {"population": dataclasses.replace(Study().population, p_unknown=0.1)},
+        "reader": {"reader": "table"},
         "clock.arm": {"clock": dataclasses.replace(Study().clock, arm=1.1)},
         "paradigms.fetch.parameters.depth": {
             "paradigms": {**PAPER, "fetch": Paradigm(planner="sparse", parameters={"depth": 3})}

@@ -54,6 +54,10 @@ def study(
     ] = FOLDER,
     model: ModelFile = None,
     robot: RobotName = None,
+    reader: Annotated[
+        str | None,
+        typer.Option(metavar="words|table", help="What reads what people say (docs/reading.md).  [default: words]"),
+    ] = None,
     logs: Annotated[bool, typer.Option("--logs", help="Keep every interaction, event by event, in DIR/logs.")] = False,
     real_speech: Annotated[
         bool, typer.Option("--real-speech", help="Say every word with espeak-ng and hear it with PocketSphinx.")
@@ -70,7 +74,7 @@ def study(
     """
     if context.invoked_subcommand is not None:
         return
-    given = {"people": people, "seed": seed, "logs": logs or None, "real_speech": real_speech or None}
+    given = {"people": people, "seed": seed, "reader": reader, "logs": logs or None, "real_speech": real_speech or None}
     chosen = _chosen(config, model, given)
     if robot is not None:
         from fetch_pomdp.cli.robot import with_robot

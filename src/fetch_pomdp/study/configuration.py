@@ -22,7 +22,7 @@ from fetch_pomdp.study.people.parameters import People
 
 Read = TypeVar("Read")
 
-PLAIN = ("people", "trials", "seed", "logs", "real_speech")
+PLAIN = ("people", "trials", "seed", "logs", "real_speech", "reader")
 FIELDS = (*PLAIN, "layouts", "paradigms", "model", "rewards", "population", "clock")
 
 
@@ -101,6 +101,13 @@ def _elsewhere(field: str, read: Callable[[], Read]) -> Read:
 def to_plain(study: Study) -> dict[str, Any]:
     """Return all that a study's trials depend on as plain data, in the form that JSON gives back."""
     fields = dataclasses.asdict(study)
+    for fields_of, name, unset in (
+        (fields, "reader", Study.__dataclass_fields__["reader"].default),
+        (fields["population"], "grammar", People.__dataclass_fields__["grammar"].default),
+        (fields["population"], "p_unknown", People.__dataclass_fields__["p_unknown"].default),
+    ):
+        if fields_of[name] == unset:  # without it, a study is what it was before there was any
+            del fields_of[name]
     for name, scene in study.layouts.items():
         layout = fields["layouts"][name]
         del layout["answers"]

@@ -10,6 +10,7 @@ from typing import Any
 from numpy.random import Generator, SeedSequence, default_rng
 
 from fetch_pomdp import checks
+from fetch_pomdp.core.language.reading.catalogue import WORDS, own_reader
 from fetch_pomdp.core.layouts import LAYOUTS
 from fetch_pomdp.core.planners.catalogue import planner_named
 from fetch_pomdp.core.scene import Scene
@@ -81,6 +82,7 @@ class Study:
     paradigms: Mapping[str, Paradigm] = field(default_factory=lambda: dict(PAPER))
     population: People = PAPERS_PEOPLE
     clock: Durations = PAPERS_CLOCK
+    reader: str = WORDS  # of all robots: what reads what people say, by its name (`reading.catalogue`)
     logs: bool = False  # whether every interaction is kept, event by event
     real_speech: bool = False  # whether words go through a voice and a recogniser, in place of the population's rates
 
@@ -90,6 +92,7 @@ class Study:
             if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
                 found = f"found {checks.shown(value)}, expected a whole number from {least} to {most}"
                 raise StudyError(found, field=name)
+        own_reader(self.reader)
         for name in ("logs", "real_speech"):
             if not isinstance(getattr(self, name), bool):
                 raise StudyError(f"found {checks.shown(getattr(self, name))}, expected true or false", field=name)
@@ -119,6 +122,7 @@ class Study:
             scene=self.scene(name, assignment.paradigm),
             scene_name=name if name in LAYOUTS and self.layouts[name].to_mapping() == _built_in(name) else None,
             planner=robot.planner,
+            reader=self.reader,
             parameters=robot.parameters,
             seed=int(stream(self, ROBOT, assignment.person, assignment.order).integers(2**63)),
             target=assignment.desired,

@@ -72,7 +72,11 @@ def test_every_number_has_a_range_that_holds_its_default(field: dataclasses.Fiel
 
 
 def test_every_field_is_checked() -> None:
-    assert {field.name for field in dataclasses.fields(People) if not field.metadata} == {"descriptors", "confusions"}
+    assert {field.name for field in dataclasses.fields(People) if not field.metadata} == {
+        "descriptors",
+        "confusions",
+        "grammar",
+    }
 
 
 def test_every_parameter_is_on_the_page() -> None:
@@ -81,3 +85,8 @@ def test_every_parameter_is_on_the_page() -> None:
         assert f"`{field.name}`" in page, field.name
         if field.metadata:
             assert f"| `{field.name}` | {field.default:g} |" in page, field.name
+
+
+def test_a_grammar_that_nobody_speaks_is_refused() -> None:
+    with pytest.raises(StudyError, match="found 'latin', expected one of study, reader"):
+        People(grammar="latin")

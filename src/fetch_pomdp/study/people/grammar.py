@@ -26,6 +26,7 @@ AFFIRMATIONS = ("yes", "yes", "yes", "yes", "yes please", "yes that one", "yeah"
 DENIALS = ("no", "no", "no", "no", "nope", "not that one", "no not that one")
 UNSURE = ("i", "don't", "know")
 OTHER = "other one"
+GRAMMARS = ("study", "reader")  # see `wording`
 
 
 def chosen(options: Sequence[Option], rng: Generator) -> Option:
@@ -49,6 +50,17 @@ def request(item: Item, shares: Sequence[float], p_name: float, place: str, rng:
     described = " ".join(_description(item, count, p_name, rng)) or "one"
     determiner = chosen(DETERMINERS, rng) if count else "that"
     return tuple(f"{chosen(OPENINGS, rng)} {determiner} {described} {place} {chosen(CLOSINGS, rng)}".split())
+
+
+def description(item: Item, shares: Sequence[float], p_name: float, rng: Generator) -> Words:
+    """Draw how an item is called; shares: the chance of 0, 1, 2 ... of its words. The name, if it is said, is last."""
+    count = min(weighted(range(len(shares)), shares, rng), len(item.vocabulary))
+    return tuple(_description(item, count, p_name, rng))
+
+
+def around(rng: Generator) -> tuple[Words, Words]:
+    """Draw what comes before and after the item in a request."""
+    return tuple(chosen(OPENINGS, rng).split()), tuple(chosen(CLOSINGS, rng).split())
 
 
 def _description(item: Item, count: int, p_name: float, rng: Generator) -> list[str]:

@@ -15,6 +15,7 @@ from fetch_pomdp.core.language.words import tokenize
 from fetch_pomdp.documents import read_toml
 from fetch_pomdp.errors import StudyError
 from fetch_pomdp.study.people import traits
+from fetch_pomdp.study.people.grammar import GRAMMARS
 from fetch_pomdp.study.people.traits import Traits
 
 CONFUSIONS: Mapping[str, Mapping[str, float]] = {
@@ -68,7 +69,9 @@ class People:
     word_time_spread: float = _spread(0.15)  # log, persons: most within 130 and 230 words a minute
     descriptors: tuple[float, ...] = (0.02, 0.28, 0.4, 0.3)  # chance of naming the item by 0, 1, 2 ... of its words
     p_name: float = _rate(0.9)  # chance that the item's first word is among them
+    grammar: str = "study"  # of requests: of the published studies, or "reader", that of the robot's reader backwards
     p_place: float = _rate(0.05)  # chance of "next to the <other item>", persons: "many" did (Section V)
+    p_unknown: float = _rate(0.0)  # chance, with the reader's grammar, that a phrase is a word that no reader knows
     p_reword: float = _rate(0.5)  # chance that a repeated request is worded anew
     patience: float = _duration(7.0)  # s of a silent robot before the request is repeated (fit: 7.0)
     patience_spread: float = _spread(0.3)  # log, persons
@@ -132,6 +135,9 @@ class People:
                 found = getattr(self, field.name)
                 value = checks.within(found, rule["low"], rule["high"], field.name, rule["expected"], StudyError)
                 object.__setattr__(self, field.name, value)
+        if self.grammar not in GRAMMARS:
+            found = f"found {checks.shown(self.grammar)}, expected one of {', '.join(GRAMMARS)}"
+            raise StudyError(found, field="grammar")
         object.__setattr__(self, "descriptors", _shares(self.descriptors))
         object.__setattr__(self, "confusions", _table(self.confusions))
 

@@ -19,6 +19,7 @@ from fetch_pomdp.study.people import grammar, pointing
 from fetch_pomdp.study.people.channel import Channel, MistakenWords
 from fetch_pomdp.study.people.grammar import Words
 from fetch_pomdp.study.people.traits import Traits, draw_mood, log_normal
+from fetch_pomdp.study.people.wording import WORDINGS
 
 Plan = tuple[float, Callable[[float], None]]  # when (s), and what
 
@@ -129,9 +130,7 @@ class Person:
         """Say what is wanted, and point."""
         traits, rng = self._traits, self._rng
         if not self._request or rng.random() < traits.people.p_reword:
-            place = grammar.next_to(self._desired, self._scene) if rng.random() < traits.p_place else ""
-            people = traits.people
-            self._request = grammar.request(self._wanted, people.descriptors, people.p_name, place, rng)
+            self._request = WORDINGS[traits.people.grammar](self._desired, self._scene, traits, rng)
         self._say(self._request, time)
         if rng.random() < traits.p_point:
             self._raise_arm(time)
