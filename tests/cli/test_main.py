@@ -181,6 +181,13 @@ def test_a_wrong_command_line_is_told_with_the_way_to_help(run: Run) -> None:
     assert err.endswith("\nfetch-pomdp: try fetch-pomdp log replay --help\n")
 
 
+@pytest.mark.parametrize("option", ["--ears=sphinx", "--played=robot.wav"])
+def test_ears_without_a_sound_are_refused(run: Run, option: str) -> None:
+    name = option.partition("=")[0]
+    expected = f"fetch-pomdp: {name}: found it without --audio, expected something to hear\n"
+    assert run("fetch", "ambiguous", option) == (2, "", expected)
+
+
 @pytest.mark.parametrize("where", [[], ["fetch"], ["study"], ["study", "fit"], ["log"], ["participants", "list"]])
 def test_help_has_a_short_name_everywhere(run: Run, where: list[str]) -> None:
     code, out, err = run(*where, "-h")

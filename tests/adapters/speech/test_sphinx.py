@@ -12,7 +12,9 @@ import pytest
 from numpy.typing import NDArray
 
 from fetch_pomdp.adapters.speech.audio import RATE, open_raw, open_wav
+from fetch_pomdp.adapters.speech.espeak import spoken
 from fetch_pomdp.adapters.speech.sphinx import SphinxRecognizer
+from fetch_pomdp.core.language.reading.grammar import grammar
 from fetch_pomdp.core.ports import Recognizer, Word
 from tests.adapters.speech.sounds import DATA, VOCABULARY, samples_of, with_noise
 
@@ -21,6 +23,11 @@ pytest.importorskip("pocketsphinx")
 
 def ears(samples: NDArray[np.int16]) -> SphinxRecognizer:
     return SphinxRecognizer(open_raw(io.BytesIO(samples.astype("<i2").tobytes())), VOCABULARY)
+
+
+def aloud(text: str) -> SphinxRecognizer:
+    """Return ears that hear a text as espeak-ng says it, in a quiet room."""
+    return ears(with_noise(np.pad(spoken(text, "en-us", 150), RATE // 2), 30.0))
 
 
 def texts(words: list[Word]) -> list[str]:
@@ -105,6 +112,21 @@ def test_a_voice_at_another_rate_is_understood(tmp_path: Path) -> None:
     with wave.open(str(path)) as file:
         assert file.getframerate() == 22050
     assert texts(SphinxRecognizer(open_wav(path), VOCABULARY).hear(10.0))[-2:] == ["silver", "spoon"]
+
+
+@pytest.mark.skipif(not shutil.which("espeak-ng"), reason="espeak-ng is not installed: apt install espeak-ng")
+@pytest.mark.parametrize(
+    "said", ["the spoon to the left of the bowl", "give me the second one from the right", "the one next to the marker"]
+)
+def test_where_an_item_is_is_heard(said: str) -> None:
+    heard = texts(aloud(said).hear(10.0))
+    assert ["the" if word == "that" else word for word in heard] == said.split()  # the two say the same here
+
+
+@pytest.mark.skipif(not shutil.which("espeak-ng"), reason="espeak-ng is not installed: apt install espeak-ng")
+def test_what_is_no_sentence_to_the_robot_is_nothing_to_its_reader() -> None:
+    words = texts(aloud("traffic is moving slowly on the bridge into town").hear(10.0))
+    assert not set(words) & {*VOCABULARY, *grammar("english").known}
 
 
 @pytest.mark.skipif(not shutil.which("flite"), reason="flite is not installed: apt install flite")

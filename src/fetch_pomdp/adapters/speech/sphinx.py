@@ -35,9 +35,9 @@ NOISE = -30.0  # dB under the utterance's mean power: the decoder was trained on
 SEED = 0
 OTHER_TALK = 0.45  # share of common words above which an utterance is not meant for the robot, and only they are given
 # The language model's score a frame below which nobody meant the robot: what is made of other talk is no sentence of
-# the model. By the tuning half of benchmarks/conversation_sets.py: 2 of 60 requests and answers are below it, both
-# misheard, and 28 of 32 sentences to others.
-LEAST_EXPECTED = -1.15
+# the model. By the tuning half of benchmarks/conversation_sets.py, in quiet: none of 60 requests and answers is below
+# it, and 21 of 32 sentences to others; with -1.15 it is 2 and 28, and in noise too many requests.
+LEAST_EXPECTED = -1.3
 MOST_PATHS = 500  # of the decoder's lattice; many are of the same words
 MOST_READINGS = 10
 LEAST_WEIGHT = 0.001
