@@ -121,7 +121,8 @@ def load_user_study(path: str | Path) -> UserStudy:
 def user_study_from_mapping(data: Mapping[str, Any], folder: Path, name: str) -> UserStudy:
     """Build a user study from the fields of a file in `folder`."""
     usual = _template()
-    design = {"paradigms": usual["paradigms"]} | {key: data[key] for key in data if key != SECTION}
+    robots = {key: usual[key] for key in ("paradigms", "reader")}
+    design = robots | {key: data[key] for key in data if key != SECTION}
     study = study_from_mapping(design, folder, live_scene)
     checks.required(data, (SECTION,), StudyError)
     try:
