@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from fetch_pomdp.core.action import Action, Pick, Wait
+from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.events import Event, Observed
 from fetch_pomdp.core.generative import asked_after
+from fetch_pomdp.core.language.reading.catalogue import WORDS
+from fetch_pomdp.core.language.reading.tokens import STOP
 from fetch_pomdp.core.language.unigram import split
 from fetch_pomdp.core.language.words import Meaning
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Scene
-from fetch_pomdp.errors import StudyError
+from fetch_pomdp.errors import BeliefError, StudyError
 from fetch_pomdp.files.header import Header
 
 
@@ -40,14 +44,36 @@ class Step:
 def interaction_of(header: Header, events: Iterable[Event], source: str = "") -> Interaction:
     """Return a recorded interaction. Raises StudyError, with the file, where the desired item is not recorded.
 
-    Logs without `person` are held to be of one and the same, who has no name.
+    Logs without `person` are held to be of one and the same, who has no name. Where another reader was left the words
+    as they were heard, they are read as the paper does (`in_words`).
     """
     if header.target is None:
         raise StudyError(
             "found none, expected the id of the item that was desired", field="target", source=source, line=1
         )
     person = "" if header.person is None else str(header.person)
-    return Interaction(header.scene, header.scene.index(header.target), person, tuple(events))
+    read = events if header.reader == WORDS else in_words(events, header.scene)
+    return Interaction(header.scene, header.scene.index(header.target), person, tuple(read))
+
+
+def in_words(events: Iterable[Event], scene: Scene) -> Iterator[Event]:
+    """Yield events with the words of observations as the paper's reader knows them, answers among them (`lexicon`).
+
+    Choice: of what somebody says of an item only the words of the scene count: "the leftmost one" is silence to a model
+    of words, and the chance of words comes out that much lower.
+    """
+    agent = Agent(scene)
+    for event in events:
+        plain = _plain(event, agent) if isinstance(event, Observed) else event
+        with contextlib.suppress(BeliefError):  # by the model it was impossible, and the robot went on without it
+            agent.take(plain)
+        yield plain
+
+
+def _plain(event: Observed, agent: Agent) -> Observed:
+    spoken = tuple(word for word in event.observation.words if word != STOP)
+    words = agent.answers.read(spoken, agent.after).words
+    return dataclasses.replace(event, observation=Observation(words, event.observation.ray), read=())
 
 
 def steps_of(events: Iterable[Event], problem: Problem) -> Iterator[Step]:
