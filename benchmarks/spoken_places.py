@@ -1,6 +1,6 @@
 """Items described by where they are, said aloud: from sound through the reader to the item handed over.
 
-    python benchmarks/places.py [--half held-out] [--voices 10] [--room quiet] [--json] [--cache FOLDER]
+    python benchmarks/spoken_places.py [--half held-out] [--voices 10] [--room quiet] [--json] [--cache FOLDER]
 
 Conversations as in `conversations.py`, with the robot that reads by `TableReader`. The item wanted is the one that the
 written sentence says to the reader: what is measured is the ears. Each sentence is said by several voices; those of the
