@@ -6,7 +6,7 @@ import logging
 import math
 import re
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -21,6 +21,7 @@ from fetch_pomdp.adapters.speech.recorded import SoundRecognizer
 from fetch_pomdp.adapters.speech.utterances import SpeechSegment
 from fetch_pomdp.core.alternatives import Alternative
 from fetch_pomdp.core.language.reading.grammar import grammar
+from fetch_pomdp.core.language.reading.tokens import nearest, uninflected
 from fetch_pomdp.core.ports import Word
 from fetch_pomdp.extras import load
 
@@ -53,7 +54,7 @@ class SphinxTranscriber:
     def __init__(self, vocabulary: Sequence[str]) -> None:
         self._decoder = _decoder(vocabulary)
         self._foreign = frozenset(COMMON).difference(own_words(vocabulary))
-        self._idle = self._foreign - grammar("english").known  # what is kept of other talk says nothing to a reader
+        self._idle = _idle(self._foreign, vocabulary)
 
     def words(self, utterance: SpeechSegment) -> list[Word]:
         """Return the words with their times on the clock of the utterance, whatever was heard before."""
@@ -103,6 +104,18 @@ class SphinxRecognizer(SoundRecognizer):
 
     def __init__(self, sound: Sound, vocabulary: Sequence[str]) -> None:
         super().__init__(sound, SphinxTranscriber(vocabulary).next_words)
+
+
+def _idle(words: Iterable[str], vocabulary: Sequence[str]) -> frozenset[str]:
+    """Return the words that say nothing to a reader: it knows neither them nor any that they may be misspellings of."""
+    language = grammar("english")
+    known = language.known | frozenset(vocabulary)
+    alike = known.union(language.synonyms, language.colours)
+    return frozenset(
+        word
+        for word in words
+        if alike.isdisjoint((word, *uninflected(word, language))) and nearest(word, known) is None
+    )
 
 
 def _expected(segments: Sequence[Segment]) -> float:
