@@ -34,7 +34,6 @@ from fetch_pomdp.study.design import assignments
 from fetch_pomdp.study.encounter import Encounter
 from fetch_pomdp.study.experiment import play, run
 from fetch_pomdp.study.from_logs import trials_of
-from fetch_pomdp.study.people.parameters import People
 from fetch_pomdp.study.record import NAME, read_trials
 from tests.study.small import small
 
@@ -281,16 +280,3 @@ def test_the_same_person_comes_to_all_their_trials(monkeypatch: pytest.MonkeyPat
     assert [met[persons.index(person)][0] for person in persons] == [traits for traits, _ in met]
     assert len({repr(traits) for traits, _ in met}) == 3
     assert len({draw for _, draw in met}) == len(met)
-
-
-def test_robots_that_read_are_played_and_replayed_alike(tmp_path: Path) -> None:
-    reading = small(logs=True, reader="table", population=People(grammar="reader", p_place=0.8))
-    for folder in ("one", "two"):
-        run(reading, tmp_path / folder)
-    assert files(tmp_path / "one") == files(tmp_path / "two")
-    logs = [read_recording(path) for path in sorted((tmp_path / "one" / "logs").iterdir())]
-    assert {log.header.reader for log in logs} == {"table"}
-    for log in logs:
-        assert list(differences(log)) == []
-    run(dataclasses.replace(reading, reader="words"), tmp_path / "words")
-    assert list(read_trials(tmp_path / "words" / NAME)) != list(read_trials(tmp_path / "one" / NAME))
