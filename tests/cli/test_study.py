@@ -74,6 +74,20 @@ def test_wrong_input_is_one_line_and_code_2(run: Run, config: Path, tmp_path: Pa
         assert expected in told.splitlines()[-1]
 
 
+def test_the_robots_of_a_study_read_with_the_reader_that_is_named(run: Run, config: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    command = ("study", "--config", config, "--out", out, "--workers", 1, "--people", 1)
+    assert run(*command, "--reader", "table")[0] == 0
+    header = json.loads((out / NAME).read_text().splitlines()[0])
+    assert header["study"]["reader"] == "table"
+    code, _, told = run(*command)
+    assert code == 2
+    assert "reader" in told.splitlines()[-1]
+    code, _, told = run(*command, "--reader", "lips")
+    assert code == 2
+    assert "reader: found 'lips', expected words, table" in told.splitlines()[-1]
+
+
 def test_a_study_can_be_stopped_by_hand(
     run: Run, config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -1,8 +1,8 @@
 """How a person who wants an item tells where it is: of all places, one that a listener takes for this item's.
 
-Rational speech acts, as in `speaker`: of the descriptions by which the item is likeliest, or as likely as any other,
-one is said the more often, the better it tells the item apart and the shorter it is. The listener is the robot's own
-reader, which does not know whose left or right is meant where nobody's is named.
+Rational speech acts, as in `speaker`: of the places by which the item is likelier than any other, one is said the more
+often, the better it tells the item apart and the shorter it is. The listener is the robot's own reader, which does not
+know whose left or right is meant where nobody's is named.
 
 Choice: what a listener would take for another item's once it is in words is said otherwise.
 
@@ -53,6 +53,7 @@ from fetch_pomdp.core.scene import Scene
 
 SIDES, RELATIONS = ("left", "right"), ("next to", "left of", "right of", "in front of", "behind")
 MOST_COUNTED = 4  # places from a side that somebody counts
+APART = 0.1  # chance by which a place must put an item before all others; one that does not is no help
 TIED = 1e-6  # difference of chances
 TRIES = 10  # to say something, after which no place is said
 
@@ -100,7 +101,7 @@ class Describer:
         return np.asarray(heard.chances.reshape(-1))
 
     def choices(self, item: int, words: tuple[str, ...]) -> tuple[list[Place], Vector]:
-        """Return the places by which an item with these words is likeliest, and how often each is said, (places,)."""
+        """Return the places that tell an item with these words apart, and how often each is said, (places,)."""
         key = item, words
         if key not in self.kept:
             self.kept[key] = self._weighed(item, words)
@@ -113,7 +114,8 @@ class Describer:
         for place in places(tuple(landmarks)):
             meaning = settled(Description((*map(Select, words), *place)))
             chances = self.chances([Candidate(meaning, 0.0, 0.0)])
-            if chances[item] >= chances.max() - TIED and self._ways(words, place):
+            others = np.delete(chances, item).max(initial=0.0)
+            if chances[item] > others + APART and self._ways(words, place):
                 found.append(place)
                 logs.append(w.speaker_sharpness * math.log(chances[item]) - w.speaker_length * len(place))
         weights = np.exp(np.array(logs))
