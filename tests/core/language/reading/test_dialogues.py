@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import pytest
 
+from fetch_pomdp.core.language.reading.reader import TableReader
 from fetch_pomdp.core.language.reading.talk import Talk
 from tests.core.language.reading.dialogues import HELD_BACK, LOOKED_AT, TABLES
+from tests.core.language.reading.rooms import ROOMS, UNSEEN
 from tests.core.language.reading.tables import READER
+
+
+GERMAN = TableReader("german")
 
 
 def ends_well(line: str) -> bool:
     table, turns, item = (part.strip() for part in line.split("|"))
-    talk = Talk(TABLES[table], READER)
+    talk = Talk((TABLES | ROOMS)[table], GERMAN if table == "tisch" else READER)
     for turn in (each.strip() for each in turns.split(";")):
         talk = talk.ask(int(turn[1:])) if turn.startswith("?") else talk.say(turn)
     return int(talk.chances.argmax()) == int(item)
