@@ -230,12 +230,15 @@ def _resolved(word: str, vocabulary: Vocabulary, grammar: Grammar) -> str:
     mine = vocabulary.every
     if word in mine or word in grammar.known or vocabulary.has(word, grammar):
         return word
-    for stem in uninflected(word, grammar):
+    stems = tuple(uninflected(word, grammar))
+    for stem in stems:
         if vocabulary.has(stem, grammar):
             return stem
     if word in grammar.synonyms or word in grammar.colours:
         return word  # a word that is known, and that no item may be called
-    return nearest(word, sorted(mine)) or nearest(word, grammar.spellings) or word
+    own = sorted(mine)
+    found = nearest(word, own) or nearest(word, grammar.spellings)
+    return found or next(filter(None, (nearest(stem, own) for stem in stems)), word)
 
 
 def uninflected(word: str, grammar: Grammar) -> Iterable[str]:
