@@ -24,22 +24,25 @@ import numpy as np
 from numpy.random import Generator
 
 from fetch_pomdp.core.action import Pick, Point
+from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.belief import Belief
 from fetch_pomdp.core.compiled import Vector
-from fetch_pomdp.core.language.reading.reader import Context, TableReader
+from fetch_pomdp.core.language.reading.reader import Context, Heard, TableReader
 from fetch_pomdp.core.language.reading.tokens import words_of
 from fetch_pomdp.core.language.reading.weights import shipped, theta_of
-from fetch_pomdp.core.observation import Observation
+from fetch_pomdp.core.live.person import LIVE_MODEL
+from fetch_pomdp.core.model import Rewards
 from fetch_pomdp.core.planners.base import Decision, Planner
 from fetch_pomdp.core.planners.fitted.planner import FittedValue
 from fetch_pomdp.core.problem import Problem
 from fetch_pomdp.core.scene import Item, Scene
-from fetch_pomdp.study.requests.corpus import Corpus, load_corpus
+from fetch_pomdp.study.requests.corpus import Corpus, Request, load_corpus
 from fetch_pomdp.study.requests.fit import Learner
 from fetch_pomdp.study.requests.scores import Score, groups, score
 
 P_TRUTH = 0.97  # of the person's answers
 MOST_STEPS = 30
+WRONG = (-12.5, -40.0, -80.0)  # prices of a wrong item that the default planner plans with; the first is the paper's
 UNTIL = (0.5, 0.6, 0.7, 0.8, 0.87, 0.9)
 
 
@@ -77,40 +80,58 @@ def show(corpus: Corpus, chances: Sequence[Vector]) -> Score:
     return whole
 
 
-def play(corpus: Corpus, chances: Sequence[Vector], planners: Sequence[tuple[str, Planner]], seed: int) -> None:
-    """Let robots ask a person who has said a request and answers truly with P_TRUTH; print how it ends."""
-    problems = {
-        table: Problem(dataclasses.replace(scene, model=scene.model.with_changes({"p_truth": P_TRUTH})))
-        for table, scene in corpus.scenes.items()
-    }
-    print(f"\n{'with questions':24}{'right':>8}{'questions':>11}{'return':>8}")
-    for name, planner in planners:
-        ends = [
-            asked_out(planner, problems[each.table], Belief(chances[index]), (each.target, (seed, index)))
-            for index, each in enumerate(corpus.requests)
-        ]
-        right = np.array([end[0] for end in ends], dtype=float)
-        questions = np.array([end[1] for end in ends], dtype=float)
-        paid = problems[corpus.requests[0].table].rewards
-        value = paid.pick_correct * right + paid.pick_wrong * (1.0 - right) + paid.point * questions
-        print(f"{name:24}{right.mean():8.3f}{questions.mean():11.2f}{value.mean():8.2f}", flush=True)
+def play(corpus: Corpus, chances: Sequence[Vector], planners: Sequence[tuple[str, Planner, float]], seed: int) -> None:
+    """Let robots ask a person who has said a request once and answers truly with P_TRUTH; print how it ends.
+
+    The planners plan with the model of live people (docs/live-people.md): with the paper's they wait for more words, of
+    which there are none here. The prices are the paper's, and a step of waiting has its price, too; a planner may plan
+    with another price of a wrong item, which stands beside it.
+    """
+    told = Told()
+    model = dataclasses.replace(LIVE_MODEL, p_truth=P_TRUTH)
+    print(f"\n{'with questions':24}{'right':>8}{'questions':>11}{'waits':>8}{'return':>8}")
+    for name, planner, wrong in planners:
+        agents = {
+            table: Agent(scene, planner, model=model, rewards={"pick_wrong": wrong}, reader=told, seed=seed)
+            for table, scene in corpus.scenes.items()
+        }
+        ends = []
+        for index, each in enumerate(corpus.requests):
+            told.log_likelihood = np.log(chances[index])
+            ends.append(asked_out(agents[each.table], each, np.random.default_rng((seed, index))))
+        right, questions, waits = np.array(ends, dtype=float).T
+        paid = Rewards()
+        value = paid.pick_correct * right + paid.pick_wrong * (1.0 - right) + paid.point * questions + paid.wait * waits
+        print(f"{name:24}{right.mean():8.3f}{questions.mean():11.2f}{waits.mean():8.2f}{value.mean():8.2f}", flush=True)
 
 
-def asked_out(
-    planner: Planner, problem: Problem, belief: Belief, person: tuple[int, tuple[int, int]]
-) -> tuple[bool, int]:
-    """Return whether the right item is picked in the end, and after how many questions. person: target and seed."""
-    target, seed = person
-    rng, asked, count = np.random.default_rng(seed), None, 0
+class Told:
+    """A reader that was told what every text means: for words that weights were not learnt from."""
+
+    log_likelihood: Vector
+
+    def read(self, words: Sequence[str], scene: Scene, context: Context) -> Heard:
+        """Return what it was told."""
+        return Heard(self.log_likelihood, (), (), (), 0.0, False, context)
+
+
+def asked_out(agent: Agent, request: Request, rng: Generator) -> tuple[bool, int, int]:
+    """Return whether the right item is picked in the end, after how many questions and how many waits."""
+    questions = waits = 0
+    agent.begin()
+    agent.observe(request.text)
     for _ in range(MOST_STEPS):
-        action = planner.decide(problem, belief, asked, rng=rng).action
+        action = agent.act()
         if isinstance(action, Pick):
-            return action.item == target, count
+            return action.item == request.target, questions, waits
+        answer = ""
         if isinstance(action, Point):
-            asked, count = action.item, count + 1
-            true = rng.random() < P_TRUTH
-            belief = belief.updated(Observation(("yes" if (asked == target) == true else "no",)), asked, problem)
-    return False, count
+            questions += 1
+            answer = "yes" if (action.item == request.target) == (rng.random() < P_TRUTH) else "no"
+        else:
+            waits += 1
+        agent.observe(answer)
+    return False, questions, waits
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,8 +193,9 @@ def main() -> None:
     chances = by_shipped(corpus) if given.weights else left_out(corpus, given.steps)
     show(corpus, chances)
     if given.questions:
-        robots: list[tuple[str, Planner]] = [(f"asks until {chance}", AskUntil(chance)) for chance in UNTIL]
-        play(corpus, chances, [*robots, ("the default planner", FittedValue())], given.seed)
+        until = [(f"asks until {chance}", AskUntil(chance), WRONG[0]) for chance in UNTIL]
+        planned = [(f"the default, {price:g}", FittedValue(), price) for price in WRONG]
+        play(corpus, chances, [*until, *planned], given.seed)
 
 
 if __name__ == "__main__":

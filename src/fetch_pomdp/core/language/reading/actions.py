@@ -316,6 +316,7 @@ ACTIONS: Mapping[str, Callable[..., Any]] = {
     "negation": lambda _, parts: (Not(parts[0] if len(parts) == 1 else Description(parts)),),
     "negation_of": _negation_of,
     "joined": lambda first, _and, second: (*first, *second),
+    "neither": lambda _none, first, _and, second: (Not(first), Not(second)),
     "joined_on": lambda first, second: (*first, *second),
     "relation": lambda name: (name, False),
     "directly": lambda _, relation: (relation[0], True),

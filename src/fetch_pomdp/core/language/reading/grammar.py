@@ -53,13 +53,14 @@ class Grammar:
     colours: Mapping[str, tuple[float, ...]]
     unary: Mapping[str, tuple[Rule, ...]]
     binary: Mapping[str, Mapping[str, tuple[Rule, ...]]]
-    known: frozenset[str] = field(init=False)  # every word of the lexicon's phrases, and the noise
+    known: frozenset[str] = field(init=False)  # every word of phrases, and the noise
     spellings: tuple[str, ...] = field(init=False)  # the words that others may be misspellings of
     longest: Mapping[str, int] = field(init=False)  # by its first word, of how many the longest phrase is
     openers: frozenset[str] = field(init=False)  # the first words of phrases that stand for a word of a table
 
     def __post_init__(self) -> None:
         known = self.noise | {word for phrase in self.lexicon for word in phrase}
+        known |= {word for name in self.synonyms if " " in name for word in name.split()}
         longest: dict[str, int] = {}
         for phrase in self.lexicon:
             longest[phrase[0]] = max(longest.get(phrase[0], 0), len(phrase))

@@ -154,14 +154,13 @@ def _clause(kind: str, words: Sequence[str], vocabulary: Vocabulary, grammar: Gr
         Token(start, stop, category, value)
         for leaves in here
         for start, end, category, value in leaves
-        for stop in _stops(end, here, empty, begins)
-        if category not in ENDS or not any(begins[end:stop])
+        for stop in _stops(end, here, empty, begins if category in ENDS else ())
     ]
     tokens += [
-        Token(place, stop, "det", word)
-        for place, word in enumerate(known)
-        if begins[place]
-        for stop in _stops(place + 1, here, empty, begins)
+        Token(place, stop, "det", known[place])
+        for place in sorted({token.end for token in tokens if token.category in ENDS})
+        if place < len(known) and begins[place]
+        for stop in _stops(place + 1, here, empty)
     ]
     # What says nothing at the beginning belongs to the first token.
     lead = next((place for place, each in enumerate(empty) if not each), 0)
@@ -184,14 +183,14 @@ def _clause(kind: str, words: Sequence[str], vocabulary: Vocabulary, grammar: Gr
 _Leaf = tuple[int, int, str, str]  # start, end, category, value
 
 
-def _stops(end: int, here: Sequence[Sequence[_Leaf]], empty: Sequence[bool], begins: Sequence[bool]) -> list[int]:
+def _stops(end: int, here: Sequence[Sequence[_Leaf]], empty: Sequence[bool], begins: Sequence[bool] = ()) -> list[int]:
     """Return where a token that ends at `end` may end: what says nothing after it is a part of it, unless a phrase
-    begins there, or another description (with "the").
+    begins there. begins: words ("the") up to which alone it may go on.
     """
     stops = []
     place = end
-    while place < len(empty) and empty[place]:
-        if here[place] or begins[place]:
+    while place < len(empty) and empty[place] and not (begins and begins[place]):
+        if here[place]:
             stops.append(place)
         place += 1
     return [*stops, place]
@@ -230,12 +229,15 @@ def _resolved(word: str, vocabulary: Vocabulary, grammar: Grammar) -> str:
     mine = vocabulary.every
     if word in mine or word in grammar.known or vocabulary.has(word, grammar):
         return word
-    for stem in uninflected(word, grammar):
+    stems = tuple(uninflected(word, grammar))
+    for stem in stems:
         if vocabulary.has(stem, grammar):
             return stem
     if word in grammar.synonyms or word in grammar.colours:
         return word  # a word that is known, and that no item may be called
-    return nearest(word, sorted(mine)) or nearest(word, grammar.spellings) or word
+    own = sorted(mine)
+    found = nearest(word, own) or nearest(word, grammar.spellings)
+    return found or next(filter(None, (nearest(stem, own) for stem in stems)), word)
 
 
 def uninflected(word: str, grammar: Grammar) -> Iterable[str]:
