@@ -112,10 +112,14 @@ def free_port() -> int:
 
 
 def test_a_preview_leaves_nothing_behind(tmp_path: Path) -> None:
-    """The server as a process of its own, which Ctrl-C ends."""
+    """The server as a process of its own, which an interrupt ends as soon as it has told its address.
+
+    It is begun as a shell begins what runs in the background, deaf to interrupts until it asks to hear them.
+    """
     study, temporary = small_study(tmp_path), tmp_path / "tmp"
     temporary.mkdir()
-    command = [sys.executable, "-m", "fetch_pomdp", "serve", "--study", str(study), "--preview"]
+    command = ["sh", "-c", 'trap "" INT; exec "$@"', "sh"]
+    command += [sys.executable, "-m", "fetch_pomdp", "serve", "--study", str(study), "--preview"]
     command += ["--port", str(free_port())]
     server = subprocess.Popen(
         command, cwd=tmp_path, env={**os.environ, "TMPDIR": str(temporary)}, stdout=subprocess.PIPE, text=True

@@ -174,7 +174,9 @@ def test_a_trial_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.Monkey
         page.send({"type": "typed", "text": "the marker"})
         asked = page.next("decided", action="point")["item"]
         page.next("say", key="asks")
-        monkeypatch.setattr(robot, "ARM", FOR_EVER)  # however long it takes to leave, no more is asked
+        for part in ("ARM", "GRASP"):  # however long it takes to leave, no more is asked, and nothing brought
+            monkeypatch.setattr(robot, part, FOR_EVER)
+        monkeypatch.setattr(trial.AnnouncingRobot, "pick", robot.PageRobot.pick)
         page.send({"type": "typed", "text": "no"})  # it ends the step in which it is heard
         page.next("heard")
     with study_at(tmp_path) as house:  # another server

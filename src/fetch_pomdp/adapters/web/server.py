@@ -67,7 +67,7 @@ def create_app(
 def serve(
     app: Starlette, host: str, port: int, *, ready: Callable[[], None], warm_up: Callable[[], None] = lambda: None
 ) -> None:
-    """Serve until interrupted; `ready` is called when pages may come, `warm_up` in a thread meanwhile.
+    """Serve until interrupted; `ready` is called when pages and an interrupt may come, `warm_up` in a thread meanwhile.
 
     Raises MissingExtraError without uvicorn, InputError for an address that cannot be listened at.
     """
@@ -95,6 +95,12 @@ def serve(
         ws_ping_timeout=20.0,
         timeout_graceful_shutdown=3,
     )
+
+    class Server(uvicorn.Server):
+        async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+            """Announce the server when it has begun to listen for interrupts too."""
+            await super().startup(sockets)
+            ready()
+
     with listening:
-        ready()
-        uvicorn.Server(settings).run(sockets=[listening])
+        Server(settings).run(sockets=[listening])
