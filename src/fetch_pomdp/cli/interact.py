@@ -124,17 +124,8 @@ def fetch(
     console = Terminal(stderr=json_lines)
     with contextlib.ExitStack() as open_files:
         typed = audio is None and skeleton is None
-        if ears is not None and audio is None:
-            raise InputError("found it without --audio, expected something to hear", field="--ears")
-        if played is not None and audio is None:
-            raise InputError("found it without --audio, expected something to hear", field="--played")
-        eyes: SkeletonSource | None
-        words: Recognizer | None
-        if typed:
-            words, eyes = _typed(table, console)
-        else:
-            eyes = _seeing(audio, skeleton)
-            words = _hearing(table, audio, rate, ears or "sphinx", played=played)
+        sensors = _sensors(table, audio, skeleton, rate=rate, ears=ears, played=played)
+        words, eyes = _typed(table, console) if typed else sensors
         prepare(agent.planner, agent.problem)
         record = open_files.enter_context(EventLog.create(log, header)) if log else None
         said: list[str] = []
@@ -162,17 +153,22 @@ def _typed(scene: Scene, console: Console) -> tuple[Recognizer, SkeletonSource]:
     return person, person
 
 
-def _seeing(audio: str | None, skeleton: str | None) -> SkeletonSource | None:
+def _sensors(
+    scene: Scene, audio: str | None, skeleton: str | None, *, rate: int, ears: str | None, played: str | None
+) -> tuple[Recognizer | None, SkeletonSource | None]:
     if audio == skeleton == STREAM:
         raise InputError("found - for both --audio and --skeleton, expected one of them from standard input")
-    if skeleton is None:
-        return None
-    return RecordedSkeleton.stream(sys.stdin.buffer) if skeleton == STREAM else RecordedSkeleton.open(skeleton)
+    for name, value in (("--ears", ears), ("--played", played)):
+        if audio is None and value is not None:
+            raise InputError("found it without --audio, expected something to hear", field=name)
+    eyes: SkeletonSource | None = None
+    if skeleton is not None:
+        opened = RecordedSkeleton.stream(sys.stdin.buffer) if skeleton == STREAM else RecordedSkeleton.open(skeleton)
+        eyes = opened
+    return None if audio is None else _hearing(scene, audio, rate, ears=ears or "sphinx", played=played), eyes
 
 
-def _hearing(scene: Scene, audio: str | None, rate: int, ears: str, *, played: str | None) -> Recognizer | None:
-    if audio is None:
-        return None
+def _hearing(scene: Scene, audio: str, rate: int, *, ears: str, played: str | None) -> Recognizer:
     from fetch_pomdp.adapters.speech.audio import Sound, open_microphone, open_raw, open_wav
     from fetch_pomdp.adapters.speech.choice import recognizer
     from fetch_pomdp.adapters.speech.echo import WithoutEcho
