@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from asking.twelve import Array, Decide, World, told
 
-BELIEFS, SWEEPS = 700, 70
+BELIEFS, SWEEPS = 500, 40
 
 
 def solved(of: World, seed: int, beliefs: int = BELIEFS, sweeps: int = SWEEPS) -> Array:

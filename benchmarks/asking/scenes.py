@@ -13,7 +13,8 @@ from fetch_pomdp.core.questions.question import Kind
 from planning.drawn import log_uniform, positions
 
 LOOKED_AT = range(1000, 1200)  # seeds that were looked at while the planner was made
-HELD_OUT = range(1200, 1250)  # seeds that were opened once, at the end
+OPENED = range(1200, 1250)  # seeds that were opened once; the number of sweeps was raised after that, on others
+HELD_OUT = range(1250, 1300)  # seeds that were opened once, after that
 
 ATTRIBUTES = (
     ("red", "blue", "green", "yellow"),

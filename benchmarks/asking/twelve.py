@@ -91,7 +91,7 @@ def questions(kinds: set[Kind], names: float = 0.75) -> tuple[Question, ...]:
 
 def world(problem: Problem) -> World:
     """Return a problem's matrices."""
-    rays, p_l, n = Discrete(problem).gestures, problem.model.p_l, problem.n_items
+    rays, p_l, n = Discrete(Problem(problem.scene)).gestures, problem.model.p_l, problem.n_items
     silence = np.zeros((n, 1))
     o = []
     for question in problem.questions:

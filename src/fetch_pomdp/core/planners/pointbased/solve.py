@@ -20,7 +20,7 @@ from fetch_pomdp.core.questions.rows import information
 
 CAPACITY = 256  # plans
 REFINED = 4  # questions that are valued by all outcomes
-ROUNDS, SWEEPS = 3, 5
+SWEEPS = (4, 6, 14)  # of each round; the last as many as robots wait in a row where that is cheap
 BELIEFS = 320  # a round
 LONGEST = 14  # steps of an interaction that beliefs are collected in
 SURE = 0.999
@@ -43,11 +43,11 @@ def solved(steps: Steps, seed: int) -> Vectors:
     vectors = no_vectors(steps)
     memory, state = memory_for(steps, REFINED), random_state(seed)
     beliefs = np.empty((0, steps.rows.shape[1]))
-    for number in range(ROUNDS):
+    for number, sweeps in enumerate(SWEEPS):
         more = np.empty((BELIEFS, steps.rows.shape[1]))
         collect(steps, vectors, memory, state, number, more)
         beliefs = np.concatenate([beliefs, more])[-2 * BELIEFS :]
-        for _ in range(SWEEPS):
+        for _ in range(sweeps):
             sweep(beliefs, SLACK, steps, vectors, memory, state)
     return vectors
 
