@@ -1,7 +1,7 @@
 # Two commands for a newcomer: make demo, make test.
 PYTHON ?= python3
 BIN := .venv/bin
-EXTRAS := --extra speech --extra serve --extra postgres --extra study --extra dask --extra ray
+EXTRAS := --extra speech --extra echo --extra endpoint --extra serve --extra postgres --extra study --extra dask --extra ray
 RECORDING := --audio examples/marker.wav --skeleton examples/marker.jsonl
 
 .PHONY: demo test compiled lint coverage page check-all proofs shows docs numbers check-robot audit screenshots film bench picture requirements clean
