@@ -15,12 +15,11 @@ from fetch_pomdp.core.questions.question import Kind
 from fetch_pomdp.core.questions.simulation import simulate_asking
 from planning import Record
 
-SIZES = (2, 3, 4, 6, 8, 12, 16, 24, 36, 50)
+SIZES = (2, 4, 8, 12, 24, 50)
 SETS = {
     "this one?": frozenset({Kind.POINT}),
-    "and attributes": frozenset({Kind.POINT, Kind.ATTRIBUTE, Kind.ATTRIBUTES}),
-    "and places, pairs": frozenset(Kind) - {Kind.OPEN, Kind.REPEAT},
-    "and open": frozenset(Kind),
+    "all yes or no": frozenset(Kind) - {Kind.OPEN, Kind.REPEAT},
+    "all": frozenset(Kind),
 }
 SEED = 8100
 
