@@ -11,6 +11,8 @@ from fetch_pomdp.core.explanation import Explanation
 from fetch_pomdp.core.generative import State, step
 from fetch_pomdp.core.gesture import Ray
 from fetch_pomdp.core.interaction import Timing, interact
+from fetch_pomdp.core.language.reading.reader import TableReader
+from fetch_pomdp.core.live.person import live_scene
 from fetch_pomdp.core.model import Model, Rewards
 from fetch_pomdp.core.observation import Observation
 from fetch_pomdp.core.planners.base import Decision, Planner, decide_many
@@ -65,6 +67,7 @@ __all__ = [
     "SparseSampling",
     "State",
     "Summary",
+    "TableReader",
     "Threshold",
     "Timing",
     "Wait",
@@ -72,6 +75,7 @@ __all__ = [
     "decide_many",
     "explain",
     "interact",
+    "live_scene",
     "simulate",
     "step",
     "tuned",

@@ -125,9 +125,9 @@ def fetch(
     with contextlib.ExitStack() as open_files:
         typed = audio is None and skeleton is None
         sensors = _sensors(table, audio, skeleton, rate=rate, ears=ears, played=played)
+        record = open_files.enter_context(EventLog.create(log, header)) if log else None
         words, eyes = _typed(table, console) if typed else sensors
         prepare(agent.planner, agent.problem)
-        record = open_files.enter_context(EventLog.create(log, header)) if log else None
         said: list[str] = []
         timing, steps = (TYPED, sys.maxsize) if typed else (RECORDED, MOST_STEPS)
         body: Robot = ConsoleRobot(said.append)
@@ -139,6 +139,8 @@ def fetch(
             stage = Stage(scene=table, say=said.append, console=console, video=video, live=live)
             body = open_files.enter_context(opened_robot(robot, stage))
         events = interact(agent, body, words, eyes, timing=timing, most_steps=steps)
+        if typed:
+            events = _with_hint(events, console)
         _follow(_recorded(events, record), agent, said, console, json_lines=json_lines)
 
 
@@ -146,9 +148,8 @@ def _typed(scene: Scene, console: Console) -> tuple[Recognizer, SkeletonSource]:
     console.print("On the table:")
     for item in scene.items[:20]:
         console.print(f"  {escape(item.id)}  [dim]{escape(', '.join(words_besides_name(item)))}[/dim]")
-    console.print(
-        "Say what you want, as to a person. @marker-1 points at it; an empty line is silence; Ctrl-D leaves.\n"
-    )
+    points = f"@{escape(scene.items[0].id)} points at it"
+    console.print(f"Say what you want, as to a person. {points}; an empty line is silence; Ctrl-D leaves.\n")
     person = TypedPerson(scene, lambda: console.input("[bold]you:[/bold] "), lambda line: console.print(escape(line)))
     return person, person
 
@@ -184,6 +185,14 @@ def _hearing(scene: Scene, audio: str, rate: int, *, ears: str, played: str | No
     if played is not None:
         sound = WithoutEcho(sound, open_wav(played))
     return recognizer(ears, sound, listened_for(scene))
+
+
+def _with_hint(events: Iterator[Event], console: Console) -> Iterator[Event]:
+    """Yield events; say how the talk goes on once a hand-over has been shown."""
+    for event in events:
+        yield event
+        if isinstance(event, Acted) and event.done and isinstance(event.action, Pick):
+            console.print("[dim]Say what is wrong with it, or what else you want; an empty line ends.[/dim]")
 
 
 def _recorded(events: Iterator[Event], record: EventLog | None) -> Iterator[Event]:

@@ -25,6 +25,7 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from fetch_pomdp.checks import shown
 from fetch_pomdp.core.action import Action, Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent, Understood
 from fetch_pomdp.core.events import Acted, Event, Observed
@@ -36,7 +37,7 @@ from fetch_pomdp.core.planners.base import Decision
 from fetch_pomdp.core.ports import Failure, Outcome, Recognizer, Robot, SkeletonSource
 from fetch_pomdp.core.senses import Pace, Senses, StreamPace
 from fetch_pomdp.core.simulation import MOST_STEPS
-from fetch_pomdp.errors import ModelError
+from fetch_pomdp.errors import ActionError, ModelError
 
 LISTENING = "I am listening."
 FAILED = "I could not hand it over. Please tell me again."
@@ -94,7 +95,8 @@ def interact(
 
     A pick that failed or was stopped ends nothing: the robot says so, listens for a wait, and decides anew. With
     `Timing.after` it listens on after a hand-over; each further request has most_steps of its own. pace: that of
-    recordings unless given. answers: how they are read, by the scene's lexicon unless given.
+    recordings unless given. answers: how they are read, by the scene's lexicon unless given. Raises ActionError for a
+    robot that returns no outcome.
     """
     timing, pace, answers = timing or Timing(), pace or StreamPace(), answers or agent.answers
     senses = Senses(agent.problem, ears, eyes, pace)
@@ -220,7 +222,11 @@ class _Interaction:
         item = self._agent.item(action)
         if item is None:
             return Outcome.DONE
-        return self._robot.pick(item) if isinstance(action, Pick) else self._robot.point(item)
+        result = self._robot.pick(item) if isinstance(action, Pick) else self._robot.point(item)
+        if not isinstance(result, Outcome | Failure):
+            name = "pick" if isinstance(action, Pick) else "point"
+            raise ActionError(f"found {shown(result)}, expected an Outcome or a Failure", field=f"robot.{name}")
+        return result
 
 
 def not_understood(words: Sequence[str]) -> str:

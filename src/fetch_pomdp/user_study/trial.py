@@ -5,7 +5,7 @@ desired"), so that it cannot be stopped any more and its time is that of the dec
 after it.
 
 Choice: after GIVE_UP seconds the person may give a trial up, which counts as if the robot had never picked; nobody can
-be recorder waiting for a robot that waits for ever.
+be kept waiting for a robot that waits for ever.
 """
 
 from __future__ import annotations
