@@ -113,11 +113,10 @@ def fetch(
     }
     if video is not None and robot is None:
         raise InputError("a film needs a body; add --robot baxter", field="--video")
-    scene_name = scene if scene in LAYOUTS else None
     if target is not None:
         table.index(target, "target")
     header = Header(
-        scene=table, scene_name=scene_name, planner=DEFAULT if planner is None else planner, parameters=parameters,
+        scene=table, scene_name=scene if scene in LAYOUTS else None, planner=DEFAULT if planner is None else planner, parameters=parameters,
         seed=seed or 0, reader=reader, target=target, person=person, order=order, paradigm=paradigm,
     )  # fmt: skip
     agent = header.agent(reader=reader_named(reader))
@@ -138,10 +137,8 @@ def fetch(
             live = STREAM in {audio, skeleton} or audio == MICROPHONE
             stage = Stage(scene=table, say=said.append, console=console, video=video, live=live)
             body = open_files.enter_context(opened_robot(robot, stage))
-        events = interact(agent, body, words, eyes, timing=timing, most_steps=steps)
-        if typed:
-            events = _with_hint(events, console)
-        _follow(_recorded(events, record), agent, said, console, json_lines=json_lines)
+        events = _recorded(interact(agent, body, words, eyes, timing=timing, most_steps=steps), record)
+        _follow(_with_hint(events, console) if typed else events, agent, said, console, json_lines=json_lines)
 
 
 def _typed(scene: Scene, console: Console) -> tuple[Recognizer, SkeletonSource]:
