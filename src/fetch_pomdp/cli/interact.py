@@ -116,7 +116,7 @@ def fetch(
     if target is not None:
         table.index(target, "target")
     header = Header(
-        scene=table, scene_name=scene if scene in LAYOUTS else None, planner=DEFAULT if planner is None else planner, parameters=parameters,
+        scene=table, scene_name=scene if scene in LAYOUTS else None, planner=planner or DEFAULT, parameters=parameters,
         seed=seed or 0, reader=reader, target=target, person=person, order=order, paradigm=paradigm,
     )  # fmt: skip
     agent = header.agent(reader=reader_named(reader))
