@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
-from fetch_pomdp.core.action import Pick, Point
+from fetch_pomdp.core.action import Pick, Point, Wait
 from fetch_pomdp.core.agent import Agent
 from fetch_pomdp.core.language.reading.reader import TableReader
 from fetch_pomdp.core.language.words import Meaning
+from fetch_pomdp.core.live.person import LIVE_MODEL
 from fetch_pomdp.core.observation import Observation
-from tests.core.language.reading.tables import LINE, READER
+from tests.core.language.reading.tables import LINE, READER, scene
 
 RED_LEFT, GREEN, RED_RIGHT, BOWL = range(4)
 
@@ -89,3 +92,14 @@ def test_silence_is_no_evidence_and_the_robot_still_decides() -> None:
     quiet = Agent(LINE, reader=READER)
     quiet.update(Observation())
     assert quiet.belief == pytest.approx([0.25] * 4)
+
+
+def test_a_word_that_all_items_share_is_a_request_and_one_of_courtesy_is_none() -> None:
+    table = scene(("marker", -0.3, 0.9), ("marker", 0.3, 0.9))
+    made = Agent(dataclasses.replace(table, model=LIVE_MODEL), reader=READER)
+    assert made.observe("could you please").base == ()
+    assert isinstance(made.decide().action, Wait)
+    assert made.observe("the marker").base == ("the", "marker")
+    assert made.belief == pytest.approx([0.5, 0.5], abs=0.05)
+    made.observe("")
+    assert isinstance(made.decide().action, Point), "it asks which"

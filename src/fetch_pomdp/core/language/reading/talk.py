@@ -2,8 +2,8 @@
 (`language.answers`), and what is said beside them is read by the reader.
 
 Choice: "not" and "other" before more words are no answer but belong to these: "no, not the red one" is an answer and a
-description. A word of courtesy, or one that the reader knows and that tells nothing of any item ("the thing"), counts
-as nothing said, as in the paper.
+description. What the reader knows and what tells the items apart by nothing ("give me something") counts as nothing
+said, as in the paper, unless it is a word of the table: "the marker" is a request where all items are markers.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def said_by(reader: Reader, words: tuple[str, ...], lexicon: Lexicon, moment: Mo
         return Said(Utterance((), response, (), answer), base_log_likelihood((), problem))
     heard = reader.read(content, problem.scene, moment.context.after_question(moment.asked))
     unknown = tuple(word for word in heard.unknown if word not in AROUND and word not in COURTESY)
-    if np.ptp(heard.log_likelihood) < TELLS:
+    if not (np.ptp(heard.log_likelihood) >= TELLS or any(word in problem.word_index for word in content)):
         return Said(Utterance((), response, unknown, answer), base_log_likelihood((), problem), heard)
     known = tuple(word for word in content if word not in heard.unknown and word != STOP)
     return Said(Utterance(known, response, unknown, answer), heard.log_likelihood, heard)
