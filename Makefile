@@ -52,6 +52,7 @@ shows: .venv/tested
 # The documentation as a site in build/site, without a warning; then the tutorial's notebook, cell by cell.
 docs: .venv-docs/installed
 	NO_MKDOCS_2_WARNING=1 .venv-docs/bin/mkdocs build --quiet --strict
+	.venv-docs/bin/python docs/check_links.py build/site
 	.venv-docs/bin/python docs/make_notebook.py --run
 
 .venv-docs/installed: pyproject.toml requirements/docs.txt
