@@ -33,6 +33,7 @@ from fetch_pomdp.core.simulation import simulate
 from fetch_pomdp.errors import ModelError, PlannerError
 from tests.tables import live
 
+pytestmark = pytest.mark.slow  # without compilation plans take minutes
 AMBIGUOUS = Scene.load("ambiguous")
 ALL = Problem(AMBIGUOUS, candidates(AMBIGUOUS))
 COLOURS, SIZES = ("red", "blue"), ("big", "small")
