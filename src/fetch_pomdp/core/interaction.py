@@ -189,12 +189,12 @@ class _Interaction:
             begun = dataclasses.replace(
                 observed, observation=understood(observed.words, self._answers, After.NOTHING, ray), anew=True
             )
-            more = objects or self._agent.begun().understand(begun.observation).utterance.base
+            more = objects or self._agent.begun().quick().understand(begun.observation).utterance.base
             if more or (ray is not None and self._lowered):
                 yield self._taken(begun)
                 return
             self._lowered = self._lowered or ray is None
-            self._reply(observed, self._agent.understand(observed.observation), waited=False)
+            self._reply(observed, self._agent.quick().understand(observed.observation), waited=False)
 
     def _taken_back(self, item: int, objection: Observed) -> Acted:
         """Take an item back; that counts from the time of the objection, which is read after it."""

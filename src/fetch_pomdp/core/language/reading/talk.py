@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fetch_pomdp.core.language import english, german
-from fetch_pomdp.core.language.answers import AROUND, After, Lexicon, Reading
+from fetch_pomdp.core.language.answers import AROUND, EVERY, After, Lexicon, Reading
 from fetch_pomdp.core.language.names import with_names
 from fetch_pomdp.core.language.reading.reader import Context, Reader
 from fetch_pomdp.core.language.reading.tokens import STOP, words_of
@@ -24,7 +24,6 @@ from fetch_pomdp.core.observation import Said
 from fetch_pomdp.core.problem import Problem
 
 DESCRIBING = english.DESCRIBING | german.DESCRIBING
-ANSWERS = frozenset(Meaning)
 TELLS = 1e-3  # nats between two items, from which on words tell something of them
 
 
@@ -87,7 +86,7 @@ def divided(
     said, or if they end the request.
     """
     spoken = _spoken(words)
-    found = answers.places(spoken, after, ANSWERS) if spoken else frozenset[int]()
+    found = answers.places(spoken, after, EVERY) if spoken else frozenset[int]()
     kept = {
         index for index in found if spoken[index] in DESCRIBING and index + 1 < len(spoken) and index + 1 not in found
     }

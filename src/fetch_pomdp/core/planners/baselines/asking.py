@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import weakref
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.random import Generator
@@ -31,26 +31,27 @@ ENTROPIES = (0.7, 1.0, 1.5, 2.0, 3.0, 99.0)  # bits
 HALVINGS = ((150, 16), (800, 5), (3_000, 1))  # episodes, and settings kept
 
 
-class _Many(Protocol):
-    def decide_many_asking(self, problem: Problem, beliefs: Vector, asked: Asked, *, rng: Generator) -> Integers: ...
+class AskingRule(ABC):
+    """A planner of questions whose choice is one of many at once; it values picks alone."""
 
+    __slots__ = ()
 
-def _one(planner: _Many, problem: Problem, belief: Belief, history: History, rng: Generator) -> AskingDecision:
-    """Return the decision of a planner that values nothing but picks."""
-    probabilities = belief.probabilities
-    checked(problem, probabilities, history)
-    number = int(planner.decide_many_asking(problem, probabilities[None], asked_of(history), rng=rng)[0])
-    unvalued = np.full(problem.n_questions, np.nan)
-    return AskingDecision(action_at(number, problem), number, np.nan, unvalued, pick_values(probabilities, problem))
+    @abstractmethod
+    def decide_many_asking(self, problem: Problem, beliefs: Vector, asked: Asked, *, rng: Generator) -> Integers:
+        """Choose an action for every belief, (m, n_items); return their numbers, (m,)."""
+
+    def decide_asking(self, problem: Problem, belief: Belief, history: History, *, rng: Generator) -> AskingDecision:
+        """Choose an action. Raises PlannerError for a belief or a history of another problem."""
+        probabilities = belief.probabilities
+        checked(problem, probabilities, history)
+        number = int(self.decide_many_asking(problem, probabilities[None], asked_of(history), rng=rng)[0])
+        unvalued = np.full(problem.n_questions, np.nan)
+        return AskingDecision(action_at(number, problem), number, np.nan, unvalued, pick_values(probabilities, problem))
 
 
 @dataclass(frozen=True, slots=True)
-class OneStepAsking:
+class OneStepAsking(AskingRule):
     """Looks one exact step ahead and then picks: a question is worth what the pick after its answer is."""
-
-    def decide_asking(self, problem: Problem, belief: Belief, history: History, *, rng: Generator) -> AskingDecision:
-        """Choose the action with the highest value."""
-        return _one(self, problem, belief, history, rng)
 
     def decide_many_asking(
         self,
@@ -74,7 +75,7 @@ _picks: weakref.WeakKeyDictionary[Problem, Solved] = weakref.WeakKeyDictionary()
 
 
 @dataclass(frozen=True, slots=True)
-class ThresholdAsking:
+class ThresholdAsking(AskingRule):
     """Picks from a belief of `pick` on; else asks what tells most for its price once the entropy is at most `entropy`
     bits; else waits. Raises PlannerError for a limit that is no number from 0 to 100.
     """
@@ -86,10 +87,6 @@ class ThresholdAsking:
         for name in ("pick", "entropy"):
             value = checks.within(getattr(self, name), 0.0, 100.0, name, "a number from 0 to 100", PlannerError)
             object.__setattr__(self, name, value)
-
-    def decide_asking(self, problem: Problem, belief: Belief, history: History, *, rng: Generator) -> AskingDecision:
-        """Choose by rule."""
-        return _one(self, problem, belief, history, rng)
 
     def decide_many_asking(
         self,
@@ -118,7 +115,7 @@ def tuned(problem: Problem, seed: int) -> ThresholdAsking:
 
 
 @dataclass(frozen=True, slots=True)
-class InformationGainAsking:
+class InformationGainAsking(AskingRule):
     """Asks what tells most for its price while that is worth it; else picks the likeliest item if that is worth a wait
     or more, and waits if not.
 
@@ -131,10 +128,6 @@ class InformationGainAsking:
     def __post_init__(self) -> None:
         value = checks.within(self.worth, 0.0, 1e3, "worth", "a number from 0 to 1000", PlannerError)
         object.__setattr__(self, "worth", value)
-
-    def decide_asking(self, problem: Problem, belief: Belief, history: History, *, rng: Generator) -> AskingDecision:
-        """Choose by rule."""
-        return _one(self, problem, belief, history, rng)
 
     def decide_many_asking(
         self,
